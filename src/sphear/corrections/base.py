@@ -1,0 +1,44 @@
+"""What all consistency corrections share: a kernel corrected by sums over the neighbourhood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from sphear.algebra import Matrix, Scalar, Vector, dot
+from sphear.engine.formula import Interaction
+from sphear.kernels import Kernel
+
+
+@dataclass(frozen=True)
+class Correction:
+    """A way to make sums over disordered or missing neighbours consistent.
+
+    `prepared` is what `preparation` sums up for the particle; the corrected kernel W~ is evaluated from it.
+    """
+
+    name: ClassVar[str]
+    aliases: ClassVar[tuple[str, ...]] = ()
+    formula: ClassVar[str]
+    source: ClassVar[str]
+    zeroth_order: ClassVar[bool]  # whether sums of derivatives of W~, the particle itself included, vanish
+
+    def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Interaction | None:
+        """The interaction that sums up what the correction needs, for `hessian` too if asked for; None if nothing."""
+        raise NotImplementedError
+
+    def value(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Scalar:
+        """The corrected kernel W~."""
+        raise NotImplementedError
+
+    def gradient(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Vector:
+        """The corrected gradient of W with respect to the first particle's position."""
+        raise NotImplementedError
+
+    def hessian(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Matrix:
+        """The corrected second derivatives of W."""
+        raise NotImplementedError
+
+    def radial(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Scalar:
+        """d . grad W~."""
+        return dot(d, self.gradient(kernel, prepared, d, r2))

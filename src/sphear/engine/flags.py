@@ -1,0 +1,23 @@
+"""What every compiled function of the engine is compiled with, and how wide a vector register is, in one place."""
+
+from __future__ import annotations
+
+import llvmlite.binding as llvm
+
+# all of fast-math but one thing: results are stored as they are, so an overflow still shows as inf
+FASTMATH = ("nnan", "ninf", "nsz", "arcp", "contract", "reassoc", "afn")
+
+OPTIONS = {"fastmath": set(FASTMATH), "error_model": "numpy", "nogil": True, "cache": True}
+
+
+def register_bytes() -> int:
+    """Bytes of the widest vector register of this processor: 64 with AVX-512, else 32.
+
+    Lanes wider than a register still compile (into several instructions), so 32 also serves processors with 16.
+    """
+    return 64 if llvm.get_host_cpu_features().get("avx512f") else 32
+
+
+def lane_count(dtype: str) -> int:
+    """How many numbers of the type "float64" or "float32" are computed on at once."""
+    return register_bytes() // (8 if dtype == "float64" else 4)

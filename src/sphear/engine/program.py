@@ -1,0 +1,78 @@
+"""Source text of a sweep: a traced formula put into the loop over the pair list."""
+
+from __future__ import annotations
+
+from sphear.engine.flags import OPTIONS, lane_count
+from sphear.engine.formula import TracedFormula
+
+_SWEEP = '''
+"""{title}"""
+
+from numba import njit
+from sphear.engine.lanes import exp, first_lanes, lane_zeros, lanes_sum, positive_part, sqrt, where_less
+from sphear.engine.records import record_loader
+
+load = record_loader({width}, {loaded})
+zeros = lane_zeros({dtype!r}, {width})
+
+
+@njit({options})
+def sweep(parameters, far, records, own, out, target, entry, first, neighbour, begin, end, origin):
+    """out[target[row - origin]] = finish(sum over the neighbours of row), for the rows begin ... end of a chunk."""
+    {parameters}
+    for row in range(begin, end):
+        i = entry[row]
+        {own}
+        {zeros}
+        stop = first[row - origin + 1]
+        for k in range(first[row - origin], stop, {width}):
+            {other}= load(records, neighbour, k)
+            {differences}
+            r2 = {square}
+            {pair}
+            {accumulate}
+        {total}
+        {finish}
+        {store}
+'''
+
+
+def _block(lines: list[str], indent: int) -> str:
+    return ("\n" + " " * indent).join(lines) if lines else "pass"
+
+
+def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -> str:
+    """The module of one sweep on the CPU, `lane_count` neighbours at a time.
+
+    Lanes beyond a particle's last neighbour are put at a distance `far` outside the support, where every kernel is
+    zero, so that the loop needs no remainder.
+    """
+    axes = range(dimension)
+    width = lane_count(dtype)
+    others = [f"x{axis}" for axis in axes] + [f"other_{f}_{k}" for f, k in formula.columns[: formula.other_columns]]
+    own = [f"own_x{axis} = records[i, {axis}]" for axis in axes]
+    own += [f"own_{f}_{k} = records[i, {dimension + column}]" for column, (f, k) in enumerate(formula.columns)]
+    own += [
+        f"{name} = own[row - origin, {column}]" for name, column in zip(formula.own_names, formula.own_columns, strict=True)
+    ]
+    sums = range(len(formula.pair_outputs))
+    return _SWEEP.format(
+        title=title,
+        width=width,
+        loaded=len(others),
+        dtype=dtype,
+        options=", ".join(f"{key}={value!r}" for key, value in OPTIONS.items()),
+        parameters=_block([f"p{k} = parameters[{k}]" for k in range(formula.parameter_count)], 4),
+        own=_block(own, 8),
+        zeros=_block([f"sum{k} = zeros()" for k in sums], 8),
+        other="".join(f"{name}, " for name in others),
+        differences=_block(
+            ["d0 = first_lanes(own_x0 - x0, stop - k, far)", *(f"d{a} = own_x{a} - x{a}" for a in axes if a)], 12
+        ),
+        square=" + ".join(f"d{a} * d{a}" for a in axes),
+        pair=_block(list(formula.pair_lines), 12),
+        accumulate=_block([f"sum{k} = sum{k} + {x}" for k, x in enumerate(formula.pair_outputs)], 12),
+        total=_block([f"total{k} = lanes_sum(sum{k})" for k in sums], 8),
+        finish=_block(list(formula.finish_lines), 8),
+        store=_block([f"out[target[row - origin], {k}] = {x}" for k, x in enumerate(formula.finish_outputs)], 8),
+    )

@@ -1,0 +1,94 @@
+"""Neighbours' records: all that a pair needs of a particle, side by side in memory, loaded whole into lanes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
+
+from sphear.engine.flags import OPTIONS
+from sphear.engine.lanes import INT64, Lanes, shuffle
+
+CHUNK = 4  # columns that are loaded and transposed together
+
+
+def record_loader(width: int, columns: int) -> Any:
+    """A compiled function (records, neighbour, k) -> `columns` lanes, of the neighbours k ... k + width - 1.
+
+    Each record is read with whole-vector loads; 4 x 4 transposes in registers turn the records of `width` neighbours
+    into columns. This replaces one gather a column, and is what makes a sweep over a pair list fast.
+    """
+
+    @intrinsic
+    def load(typingctx, records, neighbour, k):  # type: ignore[no-untyped-def]
+        lanes = Lanes(records.dtype, width)
+        size = 8 if records.dtype == types.float64 else 4
+
+        def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+            table = context.make_array(sig.args[0])(context, builder, args[0])
+            listed = context.make_array(sig.args[1])(context, builder, args[1])
+            stride = builder.sdiv(builder.extract_value(table.strides, 0), ir.Constant(INT64, size))
+            base = builder.gep(listed.data, [args[2]])
+            numbers = [builder.load(builder.gep(base, [ir.Constant(INT64, lane)])) for lane in range(width)]
+            rows = [builder.gep(table.data, [builder.mul(builder.zext(n, INT64), stride)]) for n in numbers]
+            result: list[Any] = []
+            for begin in range(0, columns, CHUNK):
+                chunk = [_load(builder, row, begin, context.get_value_type(records.dtype), size) for row in rows]
+                result += _transposed(builder, chunk)
+            return context.make_tuple(builder, sig.return_type, result[:columns])
+
+        return types.UniTuple(lanes, columns)(records, neighbour, types.int64), codegen
+
+    return load
+
+
+def _load(builder: Any, row: Any, begin: int, scalar: Any, size: int) -> Any:
+    vector = ir.VectorType(scalar, CHUNK)
+    address = builder.bitcast(builder.gep(row, [ir.Constant(INT64, begin)]), vector.as_pointer())
+    value = builder.load(address)
+    value.align = CHUNK * size
+    return value
+
+
+def _transposed(builder: Any, rows: list[Any]) -> list[Any]:
+    """From one vector of 4 columns a neighbour to one vector of all neighbours a column."""
+    parts = []
+    for a, b, c, d in zip(*(rows[k::CHUNK] for k in range(CHUNK)), strict=True):
+        even_ab, odd_ab = shuffle(builder, a, b, [0, 4, 2, 6]), shuffle(builder, a, b, [1, 5, 3, 7])
+        even_cd, odd_cd = shuffle(builder, c, d, [0, 4, 2, 6]), shuffle(builder, c, d, [1, 5, 3, 7])
+        parts.append(
+            [shuffle(builder, x, y, pattern) for pattern in ([0, 1, 4, 5], [2, 3, 6, 7])
+             for x, y in ((even_ab, even_cd), (odd_ab, odd_cd))]
+        )  # fmt: skip
+    while len(parts) > 1:
+        parts = [
+            [shuffle(builder, x, y, list(range(2 * x.type.count))) for x, y in zip(low, high, strict=True)]
+            for low, high in zip(parts[::2], parts[1::2], strict=True)
+        ]
+    return parts[0]
+
+
+@njit(**OPTIONS)
+def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyped-def]  # pragma: no cover
+    for entry in range(begin, end):
+        for k in range(values.shape[1]):
+            records[entry, column + k] = values[source[entry], k]
+
+
+def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any]:
+    """Uninitialised records, (entries, columns rounded up to whole chunks), aligned to cache lines."""
+    columns = -(-columns // CHUNK) * CHUNK
+    item = np.dtype(dtype).itemsize
+    memory = np.empty(entries * columns * item + 64, np.uint8)
+    offset = -memory.ctypes.data % 64
+    return memory[offset : offset + entries * columns * item].view(dtype).reshape(entries, columns)
+
+
+def pack(records: np.ndarray[Any, Any], column: int, values: np.ndarray[Any, Any], source: np.ndarray[Any, Any]) -> int:
+    """Copy the field `values`, (N,) or (N, k), into the records from `column` on; returns the next free column."""
+    values = values.reshape(len(values), -1)
+    _pack(records, column, values, source, 0, len(records))
+    return column + values.shape[1]

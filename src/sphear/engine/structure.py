@@ -1,0 +1,62 @@
+"""Formulas as structures: their float attributes become run-time parameters, everything else is part of the code."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterator
+from typing import Any
+
+
+def _attributes(formula: Any) -> list[tuple[str, bool, Any]]:
+    """(name, whether it is a run-time float, value) of each field of a frozen dataclass."""
+    return [
+        (field.name, field.type in ("float", float), getattr(formula, field.name))
+        for field in dataclasses.fields(formula)
+    ]
+
+
+def kind(value: Any) -> Any:
+    """What decides the code: class and attributes, but not the values of floats. Hashable."""
+    if dataclasses.is_dataclass(value):
+        return type(value), tuple("float" if is_float else kind(x) for _, is_float, x in _attributes(value))
+    return tuple(kind(x) for x in value) if isinstance(value, tuple) else value
+
+
+def parameters(formula: Any) -> list[float]:
+    """The floats of a formula and of the formulas in it, depth first."""
+    values: list[float] = []
+    for _, is_float, value in _attributes(formula):
+        if is_float:
+            values.append(float(value))
+        elif dataclasses.is_dataclass(value):
+            values += parameters(value)
+    return values
+
+
+def with_symbols(formula: Any, symbol: Callable[[], Any]) -> Any:
+    """The same formula with a new symbol in place of each float, in the order of `parameters`."""
+    copy = object.__new__(type(formula))  # not through __init__, which checks values
+    for name, is_float, value in _attributes(formula):
+        if is_float:
+            value = symbol()
+        elif dataclasses.is_dataclass(value):
+            value = with_symbols(value, symbol)
+        object.__setattr__(copy, name, value)
+    return copy
+
+
+def leaves(value: Any) -> Iterator[Any]:
+    """The numbers of a nested tuple, depth first."""
+    if isinstance(value, tuple):
+        for item in value:
+            yield from leaves(item)
+    else:
+        yield value
+
+
+def fill(template: Any, values: Iterator[Any]) -> Any:
+    """A structure like `template` (nested tuples and named tuples) with its numbers taken from `values`."""
+    if not isinstance(template, tuple):
+        return next(values)
+    items = [fill(item, values) for item in template]
+    return type(template)(*items) if hasattr(template, "_fields") else tuple(items)

@@ -1,0 +1,113 @@
+"""One sweep: an interaction summed over the pairs of particles, compiled once for each kind of interaction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sphear.engine.cache import generated_module
+from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
+from sphear.engine.program import sweep_text
+from sphear.engine.records import empty_records, pack
+from sphear.engine.structure import leaves, parameters
+from sphear.engine.threads import run_all
+
+if TYPE_CHECKING:
+    from sphear.neighbours import Chunk, Neighbours
+
+Array = np.ndarray[Any, Any]
+Fields = Mapping[str, Array]
+
+FAR = 1.001  # supports: where lanes without a neighbour are put
+
+
+@lru_cache(maxsize=None)
+def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) -> Any:
+    return generated_module(sweep_text(formula, title, dimension, dtype)).sweep
+
+
+def shape_of(values: Array) -> Any:
+    """The structure of one particle's value: 0.0 for an array (N,), a tuple of zeros for (N, k)."""
+    return 0.0 if values.ndim == 1 else (0.0,) * values.shape[1]
+
+
+@dataclass
+class Sweep:
+    """An interaction with the fields of all particles, ready to be summed over any chunk of the pair list.
+
+    Args:
+        interaction: what is summed.
+        neighbours: the pairs.
+        fields: arrays (N,) or (N, k) by the names under which the interaction knows them.
+        own: structure of the prepared coefficients, by name; their arrays are given chunk by chunk.
+        dtype: "float64" or "float32": what the sums are computed in.
+    """
+
+    interaction: Interaction
+    neighbours: Neighbours
+    fields: Fields
+    own: tuple[Shape, ...] = ()
+    dtype: str = "float64"
+
+    def __post_init__(self) -> None:
+        shared = tuple((name, shape_of(values)) for name, values in self.fields.items())
+        dimension = self.neighbours.dimension
+        self.formula = traced(self.interaction, dimension, shared, self.own)
+        self.function = _compiled(self.formula, type(self.interaction).__name__, dimension, self.dtype)
+        self.parameters = np.array(parameters(self.interaction) or [0.0], self.dtype)
+        self.records = self._packed()
+
+    def _packed(self) -> Array:
+        neighbours, formula = self.neighbours, self.formula
+        records = empty_records(len(neighbours.source), neighbours.dimension + len(formula.columns), self.dtype)
+        for axis in range(neighbours.dimension):
+            records[:, axis] = neighbours.coordinates[axis, : len(records)]
+        column = neighbours.dimension
+        for name, used in groupby(formula.columns, key=lambda cell: cell[0]):
+            components = [component for _, component in used]
+            values = self.fields[name].reshape(neighbours.count, -1)
+            column = pack(records, column, values[:, components[0] : components[-1] + 1], neighbours.source)
+        return records
+
+    @property
+    def outputs(self) -> int:
+        """How many numbers the result of a particle has."""
+        return len(self.formula.finish_outputs)
+
+    def over(self, chunk: Chunk, out: Array, target: Array, own: Array | None = None) -> None:
+        """Sum over one chunk and write each row's result to a row of `out`.
+
+        Args:
+            chunk: a part of the pair list.
+            out: (any, outputs), written to.
+            target: (rows of the chunk,), which row of `out`.
+            own: (rows of the chunk, m), the prepared coefficients.
+        """
+        if own is None:
+            own = np.empty((0, 0), self.dtype)
+        self.function(
+            self.parameters, FAR * self.neighbours.support, self.records, own, out, target, self.neighbours.entry,
+            chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
+        )  # fmt: skip
+
+    def everywhere(self) -> Array:
+        """The result of all particles, (N, outputs), in their own order."""
+        out = np.empty((self.neighbours.count, self.outputs), self.dtype)
+        jobs = [lambda chunk=chunk: self.over(chunk, out, self.neighbours.particles(chunk)) for chunk in self.neighbours.chunks]
+        run_all(jobs, self.neighbours.threads)
+        return out
+
+
+def sweep(interaction: Interaction, neighbours: Neighbours, *, dtype: str = "float64", **fields: Array) -> Array:
+    """The interaction summed over the neighbours of every particle, (N, numbers of its result)."""
+    return Sweep(interaction, neighbours, fields, dtype=dtype).everywhere()
+
+
+def width(structure: Any) -> int:
+    """How many numbers a structure holds."""
+    return len(list(leaves(structure)))

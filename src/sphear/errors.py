@@ -1,0 +1,11 @@
+"""Errors a user can cause: one sentence that says what was wrong with what, and what is allowed."""
+
+from __future__ import annotations
+
+
+class SphearError(ValueError):
+    """A mistake in the input; the message is one sentence, shown by the command line without a traceback."""
+
+
+class TooFewNeighboursError(SphearError):
+    """Some particles have too few (or too badly placed) neighbours for a correction or a fit."""

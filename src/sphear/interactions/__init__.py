@@ -1,0 +1,9 @@
+"""What is summed over pairs of particles."""
+
+from sphear.interactions.gradient import Divergence, Gradient
+from sphear.interactions.interpolation import Interpolation, NumberDensity
+from sphear.interactions.laplacian import Laplacian
+from sphear.interactions.momentum import Momentum
+from sphear.interactions.viscous_acceleration import ViscousAcceleration
+
+__all__ = ["Divergence", "Gradient", "Interpolation", "Laplacian", "Momentum", "NumberDensity", "ViscousAcceleration"]

@@ -1,0 +1,56 @@
+"""Names, aliases and the nearest valid name: one registry class for kernels, corrections and viscous terms."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator
+from typing import Generic, TypeVar
+
+from sphear.errors import SphearError
+
+T = TypeVar("T")
+
+
+def unknown(kind: str, name: object, valid: Iterable[str]) -> SphearError:
+    """The error for a name that does not exist, with the nearest valid ones first."""
+    valid = list(valid)
+    near = difflib.get_close_matches(str(name).lower(), valid, n=3, cutoff=0.5)
+    hint = f"did you mean {' or '.join(near)}? " if near else ""
+    return SphearError(f"there is no {kind} named {str(name)!r}: {hint}{kind} is one of {', '.join(valid)}")
+
+
+class Registry(Generic[T]):
+    """Named things of one kind, found by name or alias whatever the case, with '-' and ' ' read as '_'."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+        self._items: dict[str, T] = {}
+        self._aliases: dict[str, str] = {}
+
+    def add(self, name: str, item: T, aliases: Iterable[str] = ()) -> None:
+        """Register an item; a name or alias taken twice is a programming error."""
+        for key in (name, *aliases):
+            if self._plain(key) in self._aliases:
+                raise KeyError(f"the {self.kind} name {key!r} is taken twice")
+            self._aliases[self._plain(key)] = name
+        self._items[name] = item
+
+    def name(self, name: str) -> str:
+        """The registered name behind a name or an alias; raises SphearError with the nearest names."""
+        try:
+            return self._aliases[self._plain(name)]
+        except KeyError:
+            raise unknown(self.kind, name, self._items) from None
+
+    def __getitem__(self, name: str) -> T:
+        return self._items[self.name(name)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    @staticmethod
+    def _plain(name: str) -> str:
+        return str(name).strip().lower().replace("-", "_").replace(" ", "_")

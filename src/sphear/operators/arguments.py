@@ -1,0 +1,132 @@
+"""Reads what a user passes to an operator: arrays, names or objects, into what the engine takes."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from sphear.corrections import CORRECTIONS, Correction
+from sphear.engine.sweep import sweep
+from sphear.errors import SphearError
+from sphear.interactions import NumberDensity
+from sphear.kernels import KERNELS, Kernel
+from sphear.neighbours import Domain, Neighbours
+from sphear.viscosity import VISCOSITY, ViscousTerm
+
+Array = np.ndarray[Any, Any]
+Precision = Literal["float64", "float32"]
+
+SUPPORT_OVER_DX = 2 / 0.637  # about 30 neighbours in 2-D (Basa, Quinlan & Lastiwka 2009, section 6)
+
+
+def read_positions(positions: ArrayLike, domain: Domain | None) -> Array:
+    """Positions as an array (N, d) of finite numbers, d = 1 to 3, that agrees with the domain."""
+    array = _numbers(positions, "positions")
+    if array.ndim != 2 or array.shape[1] not in (1, 2, 3):
+        raise SphearError(f"positions must have the shape (N, d) with d = 1, 2 or 3, not {array.shape}")
+    if not len(array):
+        raise SphearError("positions must hold at least one particle")
+    _finite(array, "positions")
+    if domain is not None and domain.dimension != array.shape[1]:
+        raise SphearError(f"the domain has {domain.dimension} axes but the positions have {array.shape[1]}")
+    return array
+
+
+def read_field(values: ArrayLike, name: str, count: int) -> Array:
+    """A field as an array (N, k) of finite numbers."""
+    array = _numbers(values, name)
+    if array.ndim not in (1, 2) or len(array) != count:
+        raise SphearError(f"{name} must have the shape ({count},) or ({count}, k) as the positions do, not {array.shape}")
+    _finite(array, name)
+    return array.reshape(count, -1)
+
+
+def read_property(values: ArrayLike, name: str, count: int) -> Array:
+    """A positive property of each particle, (N,), from one number for all or one for each."""
+    array = _numbers(values, name)
+    if array.shape not in ((), (1,), (count,)):
+        raise SphearError(f"{name} must be one number or have the shape ({count},) as the positions do, not {array.shape}")
+    _finite(array, name)
+    if not (array > 0).all():
+        raise SphearError(f"{name} must be positive, but the least is {array.min():g}")
+    return np.ascontiguousarray(np.broadcast_to(array.reshape(-1), (count,)))
+
+
+def read_viscosity(viscosity: str | ViscousTerm) -> ViscousTerm:
+    """A viscous term by name, alias or as an object."""
+    return viscosity if isinstance(viscosity, ViscousTerm) else VISCOSITY[viscosity]
+
+
+def read_correction(correction: str | int | Correction, term: ViscousTerm | None = None) -> Correction:
+    """A correction by name, alias, level (0, 1) or as an object; none beside a term that has its own."""
+    chosen = correction if isinstance(correction, Correction) else CORRECTIONS[str(correction)]
+    if term is not None and term.own_correction and chosen.name != "none":
+        raise SphearError(
+            f"viscosity {term.name!r} carries its own correction and takes no other: correction must be 'none',"
+            f" not {chosen.name!r}"
+        )
+    return chosen
+
+
+def read_kernel(kernel: str | Kernel, h_over_dx: float | None, spacing: float) -> Kernel:
+    """A kernel object as it is, or a kernel by name with h = h_over_dx times the particle spacing."""
+    if isinstance(kernel, Kernel):
+        if h_over_dx is not None:
+            raise SphearError(f"{kernel!r} has its own h: h_over_dx goes with a kernel's name")
+        return kernel
+    kind = KERNELS[kernel]
+    ratio = SUPPORT_OVER_DX / kind.support if h_over_dx is None else float(h_over_dx)
+    if not 0 < ratio < np.inf:
+        raise SphearError(f"h_over_dx must be positive, not {h_over_dx}")
+    return kind(ratio * spacing)
+
+
+def read_spacing(spacing: float | None, positions: Array, volumes: Array | None, domain: Domain | None) -> float:
+    """The particle spacing dx: as given, or from the volumes, the periodic domain, or the box around the particles.
+
+    The last is exact for a lattice: n^d particles in a box of (n - 1) dx.
+    """
+    count, dimension = positions.shape
+    if spacing is not None:
+        if not 0 < spacing < np.inf:
+            raise SphearError(f"the particle spacing must be positive, not {spacing}")
+        return float(spacing)
+    if volumes is not None:
+        return float(volumes.mean() ** (1 / dimension))
+    if domain is not None and len(domain.periodic_axes) == dimension:
+        return float(np.prod(np.subtract(domain.upper, domain.lower)) / count) ** (1 / dimension)
+    extent = np.ptp(positions, axis=0)
+    extent = extent[extent > 0]
+    intervals = count ** (1 / max(1, len(extent))) - 1
+    if not len(extent) or intervals <= 0:
+        raise SphearError("the particle spacing cannot be told from these positions: give spacing, volumes or a kernel")
+    return float(np.prod(extent) ** (1 / len(extent)) / intervals)
+
+
+def particle_volumes(kernel: Kernel, neighbours: Neighbours) -> Array:
+    """V_i = 1 / sum_j W_ij, the volumes that the particles' own density implies."""
+    return 1.0 / sweep(NumberDensity(kernel), neighbours)[:, 0]
+
+
+def read_precision(precision: str) -> str:
+    """ "float64" or "float32"."""
+    if precision not in ("float64", "float32"):
+        raise SphearError(f"precision must be 'float64' or 'float32', not {precision!r}")
+    return precision
+
+
+def _numbers(values: ArrayLike, name: str) -> Array:
+    try:
+        return np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise SphearError(f"{name} must be an array of numbers, which {type(values).__name__} is not") from None
+
+
+def _finite(array: Array, name: str) -> None:
+    bad = np.flatnonzero(~np.isfinite(array.reshape(len(array) if array.ndim else 1, -1)).all(axis=1))
+    if len(bad):
+        raise SphearError(f"{name} must be finite, but {len(bad)} of {max(1, len(array))} are not, first particle {bad[0]}")
+
+

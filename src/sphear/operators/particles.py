@@ -1,0 +1,137 @@
+"""Particles with their neighbours and volumes: what all operators of one call are applied to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from sphear.corrections import Correction
+from sphear.engine.formula import Interaction
+from sphear.errors import SphearError, TooFewNeighboursError
+from sphear.kernels import Kernel
+from sphear.neighbours import Domain, Neighbours
+from sphear.operators import arguments
+from sphear.operators.pipeline import run
+from sphear.viscosity import ViscousTerm, uncorrected
+
+Array = np.ndarray[Any, Any]
+Fallback = Literal["uncorrected", "nan"]
+
+
+@dataclass(frozen=True)
+class Particles:
+    """Particles whose neighbours are known; made once, operated on many times.
+
+    Attributes:
+        positions: (N, d).
+        kernel: with its smoothing length.
+        neighbours: the pairs within the kernel's support.
+        volumes: (N,).
+        precision: "float64" or "float32", of the sums.
+    """
+
+    positions: Array
+    kernel: Kernel
+    neighbours: Neighbours
+    volumes: Array
+    precision: str = "float64"
+
+    @classmethod
+    def read(
+        cls,
+        positions: ArrayLike,
+        *,
+        kernel: str | Kernel = "cubic_spline",
+        h_over_dx: float | None = None,
+        spacing: float | None = None,
+        volumes: ArrayLike | None = None,
+        domain: Domain | None = None,
+        threads: int | None = None,
+        precision: str = "float64",
+    ) -> Particles:
+        """Check what a user gives, and find the neighbours; see `sphear.laplacian` for the arguments."""
+        places = arguments.read_positions(positions, domain)
+        given = None if volumes is None else arguments.read_property(volumes, "volumes", len(places))
+        if isinstance(kernel, Kernel):
+            chosen = arguments.read_kernel(kernel, h_over_dx, 1.0)
+        else:
+            dx = arguments.read_spacing(spacing, places, given, domain)
+            chosen = arguments.read_kernel(kernel, h_over_dx, dx)
+        neighbours = Neighbours(places, chosen.radius, domain, threads=threads)
+        if given is None:
+            given = arguments.particle_volumes(chosen, neighbours)
+        return cls(places, chosen, neighbours, given, arguments.read_precision(precision))
+
+    def laplacian(
+        self, values: Array, term: ViscousTerm, correction: Correction, fallback: Fallback | None = None
+    ) -> Array:
+        """The Laplacian of each column of values (N, k)."""
+        if not hasattr(term, "laplacian_stages"):
+            raise SphearError(
+                f"viscosity {term.name!r} cannot act on scalar fields: its pair force points along the line of centres,"
+                f" so it needs a velocity; use viscous_acceleration, or a term that is a Laplacian of each component"
+            )
+        fields = {"values": values}
+        return self._apply(term, correction, fields, fallback, "laplacian_stages")
+
+    def viscous_acceleration(
+        self,
+        velocities: Array,
+        dynamic_viscosity: Array,
+        density: Array,
+        term: ViscousTerm,
+        correction: Correction,
+        fallback: Fallback | None = None,
+    ) -> Array:
+        """(1/rho) div tau, (N, d)."""
+        fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
+        return self._apply(term, correction, fields, fallback, "acceleration_stages")
+
+    def _apply(
+        self, term: ViscousTerm, correction: Correction, fields: dict[str, Array], fallback: Any, stages: str
+    ) -> Array:
+        def sweeps(t: ViscousTerm, c: Correction) -> tuple[tuple[Interaction, ...], Any]:
+            return getattr(t, stages)(self.kernel, c), t.preparation(self.kernel, c)
+
+        what = f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
+        plain = uncorrected(term)
+        return self.swept(*sweeps(term, correction), fields, fallback, what, lambda: sweeps(*plain))
+
+    def swept(
+        self,
+        stages: tuple[Interaction, ...],
+        preparation: Any,
+        fields: dict[str, Array],
+        fallback: Fallback | None,
+        what: str,
+        plain: Any,
+    ) -> Array:
+        """Run sweeps; where the preparation is deficient refuse, or do as `fallback` says with the sweeps of plain()."""
+        if fallback not in (None, "uncorrected", "nan"):
+            raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
+        fields = {"volume": self.volumes, **fields}
+        outcome = run(stages, preparation, self.neighbours, fields, self.precision)
+        lacking = outcome.deficient
+        if len(lacking) and fallback is None:
+            place = ", ".join(f"{x:.6g}" for x in self.positions[lacking[0]])
+            raise TooFewNeighboursError(
+                f"{len(lacking)} of {len(self.positions)} particles have too few neighbours for {what}, the first is"
+                f" particle {lacking[0]} at ({place}): take a larger h, or ask for fallback 'uncorrected' or 'nan'"
+            )
+        if len(lacking):
+            substitute = run(*plain(), self.neighbours, fields, self.precision).values if fallback != "nan" else None
+            outcome.values[lacking] = np.nan if substitute is None else substitute[lacking]
+        return outcome.values
+
+
+def gradient_sweeps(kernel: Kernel, correction: Correction, of_differences: bool) -> tuple[Any, Any]:
+    """The stages and the preparation of a gradient."""
+    from sphear.interactions import Gradient
+
+    return (Gradient(kernel, correction, of_differences),), correction.preparation(kernel)
+
+
+

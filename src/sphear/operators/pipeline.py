@@ -1,0 +1,95 @@
+"""Runs the sweeps of an operator chunk by chunk: what is prepared for a particle is used while it is in the cache."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from sphear.engine.formula import Interaction
+from sphear.engine.sweep import Sweep
+from sphear.engine.threads import run_all
+from sphear.neighbours import Chunk, Neighbours
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """The result of all particles, (N, numbers), and the particles whose preparation was too nearly singular."""
+
+    values: Array
+    deficient: Array
+
+
+class Preparation:
+    """What an interaction sums up for each particle of a chunk before it is swept for good.
+
+    Args:
+        interaction: a preparation (`quality` is the first number of its result), or None.
+        neighbours: the pairs.
+        volumes: (N,).
+        dtype: of the sums.
+    """
+
+    def __init__(self, interaction: Any, neighbours: Neighbours, volumes: Array, dtype: str) -> None:
+        self.interaction = interaction
+        self.template: tuple[tuple[str, Any], ...] = ()
+        if interaction is None:
+            return
+        self.sweep = Sweep(interaction, neighbours, {"volume": volumes}, dtype=dtype)
+        solved = hasattr(interaction, "solve")
+        self.dimension = neighbours.dimension
+        result = interaction.template(self.dimension) if solved else self.sweep.formula.result
+        self.template = (("prepared", result),)
+
+    def over(self, chunk: Chunk) -> tuple[Array | None, Array]:
+        """The prepared numbers of the chunk's rows, in their order, and which of these rows are deficient."""
+        if self.interaction is None:
+            return None, np.empty(0, np.int64)
+        rows = chunk.end - chunk.begin
+        out = np.empty((rows, self.sweep.outputs), self.sweep.dtype)
+        self.sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
+        if hasattr(self.interaction, "solve"):
+            out = self.interaction.solve(out, self.dimension).astype(self.sweep.dtype, copy=False)
+        # the first number is the quality; written so that a NaN is deficient too
+        return out, np.flatnonzero(~(out[:, 0] > self.interaction.least_quality))
+
+
+def run(
+    stages: Sequence[Interaction],
+    preparation: Any,
+    neighbours: Neighbours,
+    fields: dict[str, Array],
+    dtype: str = "float64",
+) -> Outcome:
+    """The sweeps of `stages` one after the other, each with the result of the one before as the field `before`.
+
+    Args:
+        stages: interactions.
+        preparation: the interaction whose result they know as `own.prepared`, or None.
+        neighbours: the pairs.
+        fields: arrays (N,) or (N, k), by name; with `volume`.
+        dtype: "float64" or "float32".
+    """
+    prepared = Preparation(preparation, neighbours, fields["volume"], dtype)
+    deficient: list[Array] = []
+    result = np.empty((neighbours.count, 0))
+    for number, stage in enumerate(stages):
+        known = fields if number == 0 else {**fields, "before": result}
+        sweep = Sweep(stage, neighbours, known, own=prepared.template, dtype=dtype)
+        out = np.empty((neighbours.count, sweep.outputs), dtype)
+
+        def job(chunk: Chunk, sweep: Sweep = sweep, out: Array = out, first: bool = number == 0) -> None:
+            own, lacking = prepared.over(chunk)
+            if first and len(lacking):
+                deficient.append(neighbours.particles(chunk)[lacking])
+            sweep.over(chunk, out, neighbours.particles(chunk), own)
+
+        run_all([lambda chunk=chunk: job(chunk) for chunk in neighbours.chunks], neighbours.threads)
+        result = out
+    return Outcome(result, np.sort(np.concatenate(deficient)) if deficient else np.empty(0, np.int64))
+
+

@@ -1,0 +1,21 @@
+"""Pictures of results, all in one style; a viscous term has the same colour and marker in every one of them.
+
+A figure belongs to its caller alone: `matplotlib.pyplot`, with its global state and its windows, is not used.
+"""
+
+from sphear.results.figure.convergence import Convergence, convergence_panels, loglog_convergence
+from sphear.results.figure.panels import Profile, profiles, scatter_panels, surface_panels
+from sphear.results.figure.style import LOOKS, look, save
+
+__all__ = [
+    "LOOKS",
+    "Convergence",
+    "Profile",
+    "convergence_panels",
+    "loglog_convergence",
+    "look",
+    "profiles",
+    "save",
+    "scatter_panels",
+    "surface_panels",
+]

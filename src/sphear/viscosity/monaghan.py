@@ -1,0 +1,63 @@
+"""Monaghan & Gingold: artificial viscosity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sphear.algebra import Scalar, Vector, dot, positive_part, scale, subtract
+from sphear.corrections import Correction
+from sphear.kernels import Kernel
+from sphear.viscosity.base import ViscousTerm, regularised
+
+
+@dataclass(frozen=True)
+class Monaghan(ViscousTerm):
+    """-sum_j m_j (-alpha c mu_ij + beta mu_ij^2) / rho_mean grad W_ij, mu_ij = h (u_ij . r_ij) / (r_ij^2 + eta^2).
+
+    Only pairs that approach each other feel it: it was made for shocks, and acts on about half of the pairs that a
+    viscosity acts on. Without an alpha its linear part is given the strength of the dynamic viscosity,
+    alpha c = 2 (d + 2) nu / h (Monaghan 2005, section 4.1, where all pairs feel it).
+
+    Args:
+        alpha: of the linear part; None derives it from the viscosity.
+        beta: of the quadratic part.
+        sound_speed: c, where alpha is given.
+        receding: let pairs that move apart feel the linear part too.
+        eta: regularisation in smoothing lengths.
+    """
+
+    alpha: float | None = None
+    beta: float = 0.0
+    sound_speed: float = 1.0
+    receding: bool = False
+    eta: float | None = 0.1
+
+    name = "monaghan"
+    aliases = ("artificial", "artificial_viscosity", "monaghan_gingold")
+    formula = (
+        "-sum_j m_j (-alpha c mu_ij + beta mu_ij^2) / rho_mean grad W_ij for u_ij . r_ij < 0,"
+        " mu_ij = h (u_ij . r_ij) / (r_ij^2 + eta^2), alpha c = 2 (d + 2) nu / h"
+    )
+    source = "Monaghan & Gingold 1983; Basa, Quinlan & Lastiwka 2009, eqs. 31, 32"
+    radial = True
+    varies_viscosity = True
+
+    def acceleration(
+        self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar
+    ) -> Vector:
+        """The pair's part of eq. 31."""
+        mean_density = 0.5 * (own.density + other.density)
+        approach = dot(subtract(own.velocity, other.velocity), d)
+        mu = kernel.h * approach / regularised(r2, self.eta, kernel)
+        approaching = -positive_part(-mu)
+        if self.alpha is None:
+            kinematic = 0.5 * (own.dynamic_viscosity / own.density + other.dynamic_viscosity / other.density)
+            strength = 2.0 * (len(d) + 2) * kinematic / kernel.h
+        else:
+            strength = self.alpha * self.sound_speed
+        linear = strength * (mu if self.receding else approaching)
+        factor = other.volume * other.density / mean_density * (linear - self.beta * approaching**2)
+        return scale(factor, correction.gradient(kernel, own.prepared, d, r2))
+
+
