@@ -23,9 +23,9 @@ TABLE = Table(
 
 
 def shown(table: Table, width: int = 80) -> str:
-    console = Console(file=io.StringIO(), width=width)
-    console.print(table.render())
-    return console.file.getvalue()
+    file = io.StringIO()
+    Console(file=file, width=width).print(table.render())
+    return file.getvalue()
 
 
 @pytest.mark.parametrize(

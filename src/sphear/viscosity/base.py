@@ -12,7 +12,7 @@ from sphear.interactions import Laplacian, ViscousAcceleration
 from sphear.kernels import Kernel
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ViscousTerm:
     """A published way to compute the viscous acceleration (1/rho) div tau from particles.
 
@@ -28,6 +28,12 @@ class ViscousTerm:
     own_correction: ClassVar[bool] = False  # carries a correction of its own and takes no other
     uses_second_derivatives: ClassVar[bool] = False
     varies_viscosity: ClassVar[bool] = False  # the formula has a rule for a viscosity that varies in space
+
+    def __repr__(self) -> str:
+        """The card of the term: its formula, its source and what was measured of it."""
+        from sphear.viscosity.card import card
+
+        return card(self).text()
 
     def preparation(self, kernel: Kernel, correction: Correction) -> Any:
         """The interaction that sums up what the term needs of a particle's neighbourhood; None if nothing."""
@@ -48,7 +54,7 @@ class ViscousTerm:
         return (ViscousAcceleration(self, kernel, correction),)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LaplacianTerm(ViscousTerm):
     """A viscous term that is the Laplacian of each component: lap f_i = sum_j V_j w_ij (f_j - f_i)."""
 

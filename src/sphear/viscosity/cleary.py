@@ -12,7 +12,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Cleary(ViscousTerm):
     """sum_j m_j xi / (rho_i rho_j) 4 mu_i mu_j / (mu_i + mu_j) (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij.
 
@@ -29,7 +29,7 @@ class Cleary(ViscousTerm):
     eta: float | None = 0.1
 
     name = "cleary"
-    aliases = ("D", "basa_D")
+    aliases = ("D",)
     formula = (
         "sum_j m_j xi / (rho_i rho_j) 4 mu_i mu_j / (mu_i + mu_j)"
         " (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij, xi = d + 2"

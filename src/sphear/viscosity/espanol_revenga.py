@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class EspanolRevenga(ViscousTerm):
     """(1 / rho_i) sum_j V_j (r_ij . grad W_ij / r_ij^2) (a u_ij + b (u_ij . e_ij) e_ij).
 

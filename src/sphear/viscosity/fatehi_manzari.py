@@ -80,7 +80,7 @@ class FatehiManzariPreparation:
         return FatehiManzariMoments(quality * pivot, tensor, apply(transpose(gamma), q))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FatehiManzari(LaplacianTerm):
     """lap u_i = B_i : sum_j 2 V_j e_ij (x) grad W_ij (u_ij / r_ij - e_ij . <grad u>_i), <grad u> renormalised.
 

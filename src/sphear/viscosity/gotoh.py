@@ -12,7 +12,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Gotoh(LaplacianTerm):
     """lap u_i = c sum_j V_j (u_j - u_i) (W'' - W'/r), with c = 1 / 2 in 2-D and d (d-1)... see `factor`.
 
@@ -29,7 +29,7 @@ class Gotoh(LaplacianTerm):
     printed: bool = False
 
     name = "gotoh"
-    aliases = ("VISC-02", "visc02")
+    aliases = ("VISC-02",)
     formula = "mu_i / rho_i 2 / (d + 2) sum_j V_j (u_j - u_i) (W''_ij - W'_ij / r_ij)"
     source = "Gotoh et al. 2014; Zheng, Ma & Shao 2018, eq. 16 (VISC-02), sign and factor corrected"
     uses_second_derivatives = True

@@ -63,7 +63,7 @@ class LeastSquaresPreparation:
         return result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LeastSquares(LaplacianTerm):
     """The Laplacian of the polynomial of given degree that fits the neighbours' values best and passes through f_i.
 

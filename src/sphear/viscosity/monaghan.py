@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Monaghan(ViscousTerm):
     """-sum_j m_j (-alpha c mu_ij + beta mu_ij^2) / rho_mean grad W_ij, mu_ij = h (u_ij . r_ij) / (r_ij^2 + eta^2).
 

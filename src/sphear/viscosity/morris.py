@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm, regularised
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Morris(LaplacianTerm):
     """lap u_i = 2 sum_j V_j u_ij (r_ij . grad W_ij) / (r_ij^2 + eta^2).
 
@@ -24,7 +24,7 @@ class Morris(LaplacianTerm):
     eta: float | None = None
 
     name = "morris"
-    aliases = ("E", "VISC-01", "cummins_rudman", "brookshaw", "basa_E", "visc01")
+    aliases = ("E", "VISC-01", "cummins_rudman", "brookshaw")
     formula = "sum_j m_j (mu_i + mu_j) / (rho_i rho_j) (r_ij . grad W_ij) / (r_ij^2 + eta^2) u_ij"
     source = (
         "Morris, Fox & Zhu 1997; Cummins & Rudman 1999; Basa, Quinlan & Lastiwka 2009, eq. 35 (model E); "

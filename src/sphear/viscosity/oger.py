@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm, regularised
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Oger(LaplacianTerm):
     """lap u_i = 2 sum_j V_j u_ij (r_ij . Gamma_i grad W_ij) / (r_ij^2 + eta^2).
 
@@ -24,7 +24,7 @@ class Oger(LaplacianTerm):
     eta: float | None = None
 
     name = "oger"
-    aliases = ("VISC-04", "hosseini_feng", "khayyer", "visc04")
+    aliases = ("VISC-04", "hosseini_feng", "khayyer")
     formula = "mu_i / rho_i 2 sum_j V_j u_ij (r_ij . Gamma_i grad W_ij) / (r_ij^2 + eta^2), Gamma_i of eq. 19"
     source = (
         "Oger, Doring, Alessandrini & Ferrant 2007; Hosseini & Feng 2011; Khayyer, Gotoh & Shao 2008; "

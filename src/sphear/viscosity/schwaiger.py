@@ -45,7 +45,7 @@ class SchwaigerPreparation:
         return SchwaigerMoments(quality_h * quality, trace(inverse_h) / own.dimension, drift)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Schwaiger(LaplacianTerm):
     """lap u_i = -trace(H^-1)/d (2 sum_j V_j u_ij r_ij.grad W_ij / r_ij^2 - 2 <grad u>_i . sum_j V_j grad W_ij).
 
@@ -58,7 +58,7 @@ class Schwaiger(LaplacianTerm):
     eta: float | None = None
 
     name = "schwaiger"
-    aliases = ("VISC-03", "visc03")
+    aliases = ("VISC-03",)
     formula = (
         "mu_i / rho_i trace(-H_i^-1) / d (2 sum_j V_j u_ij (r_ij . grad W_ij) / (r_ij^2 + eta^2)"
         " - 2 <grad u>_i . sum_j V_j grad W_ij)"

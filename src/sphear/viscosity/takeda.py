@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Takeda(LaplacianTerm):
     """d2 u / dx_a dx_b = sum_j V_j u_j d2 W_ij / dx_a dx_b, the particle itself included.
 
@@ -20,7 +20,7 @@ class Takeda(LaplacianTerm):
     """
 
     name = "takeda"
-    aliases = ("A", "direct", "basa_A")
+    aliases = ("A", "direct")
     formula = "mu_i / rho_i sum_j V_j (lap W_ij u_j + grad grad W_ij u_j / 3), j = i included"
     source = "Takeda, Miyama & Sekiya 1994; Basa, Quinlan & Lastiwka 2009, eqs. 6, 27, 28 and 23 (model A)"
     uses_second_derivatives = True

@@ -54,7 +54,7 @@ class StressDivergence:
         return scale(1.0 / own.density, total)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TwoPass(LaplacianTerm):
     """d2 F / dx_a dx_b = <d/dx_a <dF/dx_b>>: a first derivative of first derivatives, in two sweeps.
 
@@ -62,7 +62,7 @@ class TwoPass(LaplacianTerm):
     """
 
     name = "two_pass"
-    aliases = ("B", "flebbe", "watkins", "flebbe_watkins", "basa_B")
+    aliases = ("B", "flebbe", "watkins", "flebbe_watkins")
     formula = "1 / rho_i sum_j V_j tau_j grad W_ij, tau_j from grad u_j = sum_k V_k u_k (x) grad W_jk"
     source = "Flebbe et al. 1994; Watkins et al. 1996; Basa, Quinlan & Lastiwka 2009, eqs. 5, 29 (model B)"
     varies_viscosity = True

@@ -11,7 +11,7 @@ from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Violeau(ViscousTerm):
     """sum_j m_j 2 (d + 2) / (rho_i + rho_j) (mu_i/rho_i + mu_j/rho_j) (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij.
 
@@ -24,7 +24,7 @@ class Violeau(ViscousTerm):
     eta: float | None = 0.1
 
     name = "violeau"
-    aliases = ("C", "violeau_issa", "basa_C")
+    aliases = ("C", "violeau_issa")
     formula = (
         "sum_j m_j 2 (d + 2) / (rho_i + rho_j) (mu_i / rho_i + mu_j / rho_j)"
         " (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij"

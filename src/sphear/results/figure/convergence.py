@@ -54,8 +54,8 @@ def convergence_panels(panels: Sequence[Convergence], xlabel: str, title: str) -
         for name, curve in curves.items():
             _draw(ax, name, curve, on_top=any(_coincide(curve, other) for other in drawn))
             drawn.append(curve)
-        for name, curve in panel.published.items():
-            ax.plot(*_positive(curve), look(name).marker, color=look(name).colour, fillstyle="none", markersize=11)
+        for name, values in panel.published.items():
+            ax.plot(*_positive(values), look(name).marker, color=look(name).colour, fillstyle="none", markersize=11)
         for slope in panel.reference_slopes:
             _draw_slope(ax, slope, drawn)
         _tick_at_points(ax, drawn)
@@ -151,5 +151,5 @@ def _name_ends(ax: Axes, curves: Mapping[str, Points]) -> None:
             color=colour,
             verticalalignment="center",
             annotation_clip=False,
-            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkB": 5},
+            arrowprops={"arrowstyle": "-", "color": colour, "linewidth": 0.5, "relpos": (0, 0.5), "shrinkB": 5},
         )

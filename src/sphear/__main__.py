@@ -1,0 +1,5 @@
+"""`python -m sphear`."""
+
+from sphear.cli import main
+
+main()

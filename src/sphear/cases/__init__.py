@@ -1,0 +1,1 @@
+"""Cases: particles, fields and what is known exactly about them."""

@@ -1,0 +1,154 @@
+"""The patch test: how exactly the viscous terms reproduce the Laplacian of a field that is known."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from sphear.cases.errors import PatchErrors, patch_errors
+from sphear.cases.fields import Field as ScalarField
+from sphear.cases.fields import field as scalar_field
+from sphear.cases.lattice import Lattice, lattice
+from sphear.cases.stream import stream_velocity
+from sphear.engine.threads import thread_count
+from sphear.errors import SphearError, TooFewNeighboursError
+from sphear.operators import Particles, arguments
+from sphear.viscosity import ViscousTerm
+
+Array = np.ndarray[Any, Any]
+
+
+class PatchTest(BaseModel):
+    """The settings of a patch test on the unit square or cube.
+
+    Attributes:
+        viscosity: names of the viscous terms.
+        sizes: particles a side, each giving one spacing dx = 1 / size.
+        field: name of a field or an expression of x, y, z.
+        velocity: act on the divergence-free velocity whose stream function the field is, instead of on the field
+            itself; the terms whose pair force is radial can do nothing else.
+        kernel, h_over_dx, correction, fallback, precision, threads: as `sphear.laplacian` takes them.
+        dimension: 2 or 3.
+        jitter: of the positions, in spacings.
+        seed: of the first of `seeds` sets of positions, whose errors are averaged.
+        edges: "continued" sets particles beyond the edges too; "truncated" leaves the square alone in space.
+        samples: "interior" takes the particles whose support lies inside the square, "all" those of the whole square.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    viscosity: tuple[str, ...] = ("morris",)
+    sizes: tuple[int, ...] = (20, 40, 60, 80, 100)
+    field: str = "quartic"
+    velocity: bool = False
+    kernel: str = "cubic_spline"
+    h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    correction: str = "none"
+    dimension: Literal[2, 3] = 2
+    jitter: float = Field(default=0.0, ge=0, le=1)
+    seed: int = Field(default=0, ge=0)
+    seeds: int = Field(default=1, ge=1)
+    edges: Literal["continued", "truncated"] = "continued"
+    samples: Literal["interior", "all"] = "interior"
+    fallback: Literal["uncorrected", "nan"] | None = None
+    precision: Literal["float64", "float32"] = "float64"
+    threads: int | None = Field(default=None, ge=1)
+
+    def rows(self, progress: Callable[[str], None] = lambda text: None) -> list[dict[str, Any]]:
+        """One row a term and size: the errors, averaged over the seeds, and the order from the size before.
+
+        Args:
+            progress: told what is being computed.
+
+        Raises:
+            SphearError: an unknown name, a field or expression without a value somewhere, too few neighbours.
+        """
+        terms = [arguments.read_viscosity(name) for name in dict.fromkeys(self.viscosity)]
+        known = scalar_field(self.field, self.dimension)
+        for term in terms:
+            arguments.read_correction(self.correction, term)
+            if term.radial and not self.velocity:
+                raise SphearError(
+                    f"viscosity {term.name!r} cannot act on a scalar field, because its pair force points along the"
+                    f" line of centres: let the patch test act on a velocity (--velocity)"
+                )
+        errors = {
+            (name, size): PatchErrors.mean(found)
+            for size in self.sizes
+            for name, found in self._at(size, terms, known, progress).items()
+        }
+        return [row for name in dict.fromkeys(self.viscosity) for row in self._of_term(name, errors)]
+
+    def _of_term(self, name: str, errors: dict[tuple[str, int], PatchErrors]) -> Iterator[dict[str, Any]]:
+        before: tuple[int, PatchErrors] | None = None
+        for size in self.sizes:
+            found = errors[name, size]
+            order = None
+            if before is not None and min(found.l1, before[1].l1) > 0 and size != before[0]:
+                order = math.log(before[1].l1 / found.l1) / math.log(size / before[0])
+            yield {"viscosity": name, "particles": size, "dx": 1 / size, **found.as_dict(), "order": order}
+            before = size, found
+
+    def _at(
+        self, size: int, terms: list[ViscousTerm], known: ScalarField, progress: Callable[[str], None]
+    ) -> dict[str, list[PatchErrors]]:
+        kernel = arguments.read_kernel(self.kernel, self.h_over_dx, 1.0 / size)
+        reach = math.ceil(kernel.radius * size - 1e-9)  # intervals that a support covers
+        if self.samples == "interior" and size < 2 * reach:
+            raise SphearError(
+                f"size {size} is too small: no particle has its support of {reach} spacings inside the square; "
+                f"sizes must be at least {2 * reach}, or h_over_dx smaller"
+            )
+        # first derivatives of first derivatives need their neighbours' neighbours
+        layers = 2 * reach + 1 if self.edges == "continued" else 0
+        names = list(dict.fromkeys(self.viscosity))
+        found: dict[str, list[PatchErrors]] = {name: [] for name in names}
+        for seed in range(self.seed, self.seed + (self.seeds if self.jitter else 1)):
+            progress(f"{size} particles a side" + (f", seed {seed}" if self.jitter else ""))
+            grid = lattice(size, self.dimension, layers=layers, jitter=self.jitter, seed=seed)
+            sample = np.flatnonzero(grid.inside >= (reach if self.samples == "interior" else 0))
+            particles = Particles.read(
+                grid.positions,
+                kernel=kernel,
+                volumes=grid.volume,
+                threads=thread_count(self.threads, len(grid.positions)),
+                precision=self.precision,
+            )
+            for name, term in zip(names, terms, strict=True):
+                computed, exact = self._laplacians(particles, term, known, grid, sample)
+                found[name].append(patch_errors(computed, exact))
+        return found
+
+    def _laplacians(
+        self, particles: Particles, term: ViscousTerm, known: ScalarField, grid: Lattice, sample: Array
+    ) -> tuple[Array, Array]:
+        """Computed and exact Laplacian at the sample, (M, k)."""
+        correction = arguments.read_correction(self.correction, term)
+        if self.velocity:
+            values, exact = stream_velocity(known, grid.positions, grid.positions[sample])
+            ones = np.ones(len(values))
+
+            def compute(fallback: Literal["uncorrected", "nan"] | None) -> Array:
+                return particles.viscous_acceleration(values, ones, ones, term, correction, fallback)
+        else:
+            values = known.value(grid.positions)[:, None]
+            exact = known.laplacian(grid.positions[sample])[:, None]
+
+            def compute(fallback: Literal["uncorrected", "nan"] | None) -> Array:
+                return particles.laplacian(values, term, correction, fallback)
+
+        # particles beyond the sample may lack neighbours; those of the sample may not, unless the user says so
+        result = compute("nan" if self.fallback is None else self.fallback)[sample]
+        lacking = np.flatnonzero(np.isnan(result).any(axis=1))
+        if len(lacking) and self.fallback is None:
+            place = ", ".join(f"{x:.6g}" for x in grid.positions[sample[lacking[0]]])
+            raise TooFewNeighboursError(
+                f"{len(lacking)} of {len(sample)} particles have too few neighbours for viscosity {term.name!r}, the"
+                f" first at ({place}): take a larger h_over_dx, or ask for fallback 'uncorrected' or 'nan'"
+            )
+        kept = ~np.isnan(result).any(axis=1)
+        return result[kept], exact[kept]

@@ -1,0 +1,96 @@
+"""Everything that has a name, by kind, without importing what computes."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+from sphear.names import unknown
+
+KINDS = ("kernels", "viscosity", "corrections", "studies", "cases")
+_SINGULAR = {"kernel": "kernels", "correction": "corrections", "study": "studies", "case": "cases", "viscous": "viscosity"}
+
+CASES = {"patch-test": "the Laplacian of a known field on a lattice or on jittered particles, against the exact one"}
+
+
+def kind_of(name: str) -> str:
+    """The kind of a name in the plural or the singular; raises SphearError with the nearest."""
+    plain = name.strip().lower()
+    plain = _SINGULAR.get(plain, plain)
+    if plain not in KINDS:
+        raise unknown("kind", name, KINDS)
+    return plain
+
+
+def entries(kind: str) -> list[dict[str, Any]]:
+    """Name, aliases and a line about each thing of a kind."""
+    if kind == "cases":
+        return [{"name": name, "aliases": [], "summary": text} for name, text in CASES.items()]
+    if kind == "studies":
+        from sphear.studies import ITEMS
+
+        return [
+            {"name": f"{paper} {item}", "aliases": [], "summary": text}
+            for paper, items in ITEMS.items()
+            for item, text in items.items()
+        ]
+    registry = _registry(kind)
+    return [
+        {"name": name, "aliases": registry.aliases(name), "summary": _first_line(registry[name])} for name in registry
+    ]
+
+
+def _registry(kind: str) -> Any:
+    if kind == "kernels":
+        from sphear.kernels import KERNELS
+
+        return KERNELS
+    if kind == "corrections":
+        from sphear.corrections import CORRECTIONS
+
+        return CORRECTIONS
+    from sphear.viscosity import VISCOSITY
+
+    return VISCOSITY
+
+
+def _first_line(item: Any) -> str:
+    """What the module of a kernel, correction or viscous term says of it."""
+    module = inspect.getmodule(item if inspect.isclass(item) else type(item))
+    assert module is not None and module.__doc__ is not None
+    return module.__doc__.strip().splitlines()[0].rstrip(".")
+
+
+def described(kind: str, name: str) -> dict[str, Any]:
+    """All that is known of one thing, for `sphear show`."""
+    if kind in ("studies", "cases"):
+        return _described_study(name) if kind == "studies" else _described_case(name)
+    registry = _registry(kind)
+    item = registry[name]
+    facts = {"kind": kind, "name": registry.name(name), "aliases": registry.aliases(name)}
+    if kind == "viscosity":
+        from sphear.viscosity.card import card
+
+        return facts | card(item, facts["name"]).as_dict()
+    facts |= {"summary": _first_line(item), "formula": item.formula, "source": item.source}
+    if kind == "kernels":
+        facts |= {"support": f"{item.support:g} h", "sigma": dict(zip(("1-D", "2-D", "3-D"), item.sigma, strict=True))}
+    return facts
+
+
+def _described_study(name: str) -> dict[str, Any]:
+    from sphear.studies import ITEMS, PAPERS, items
+
+    paper, _, item = name.replace("/", " ").partition(" ")
+    listed = {key: ITEMS[paper][key] for key in items(paper, [item] if item else [])}
+    return {"kind": "studies", "name": name, "source": PAPERS[paper], "items": listed}
+
+
+def _described_case(name: str) -> dict[str, Any]:
+    if name not in CASES:
+        raise unknown("case", name, CASES)
+    from sphear.cases.fields import FIELDS
+    from sphear.cases.patch_test import PatchTest
+
+    settings = {key: field.default for key, field in PatchTest.model_fields.items()}
+    return {"kind": "cases", "name": name, "summary": CASES[name], "fields": list(FIELDS), "settings": settings}

@@ -1,0 +1,81 @@
+"""What a command prints and writes: tables or JSON on stdout, progress on a terminal's stderr, files in a folder."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from sphear.results import OutputFolder, Table
+
+
+def print_json(value: Any) -> None:
+    """The value as JSON on stdout; numbers that are not finite, which JSON does not know, as null."""
+    print(json.dumps(_finite(value), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {key: _finite(item) for key, item in value.items()}
+    return [_finite(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+def print_tables(tables: Sequence[Table]) -> None:
+    """The tables on stdout, as wide as they are where stdout is not a terminal."""
+    from rich.console import Console
+
+    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
+    for table in tables:
+        console.print(table.render())
+
+
+def print_text(text: str) -> None:
+    """Text on stdout, wrapped to a terminal's width."""
+    from rich.console import Console
+
+    Console(width=None if sys.stdout.isatty() else 200, highlight=False, markup=False).print(text)
+
+
+@contextmanager
+def progress(what: str) -> Iterator[Callable[[str], None]]:
+    """A line on stderr that says what is being done; nothing where stderr is not a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda text: None
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(what) as status:
+        yield lambda text: status.update(f"{what}: {text}")
+
+
+def folder(out: str | None) -> OutputFolder | None:
+    """The output folder, refused at once if it cannot be written; None where no files are wanted."""
+    if out is None:
+        return None
+    from sphear.results import OutputFolder
+
+    return OutputFolder(out)
+
+
+def write(
+    out: OutputFolder, name: str, result: Any, tables: Sequence[Table], figures: Mapping[str, Callable[[], Figure]]
+) -> None:
+    """The numbers as JSON, the tables as CSV, the figures as PNG and SVG."""
+    out.write_text(f"{name}.json", json.dumps(_finite(result), indent=2, ensure_ascii=False) + "\n")
+    for number, table in enumerate(tables):
+        out.write_table(name if number == 0 else f"{name}-{number + 1}", table)
+    for figure, draw in figures.items():
+        out.write_figure(figure, draw())
+
+
+def print_files(out: OutputFolder) -> None:
+    """Where the files are."""
+    print_text("written: " + ", ".join(str(path) for path in out.files))

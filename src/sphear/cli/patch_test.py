@@ -1,0 +1,113 @@
+"""`sphear patch-test`: the accuracy of viscous terms on particles of one's own choice."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
+from sphear.errors import SphearError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from sphear.cases.patch_test import PatchTest
+
+
+def patch_test(
+    viscosity: list[str] = typer.Option(["morris"], "--viscosity", "-v", help="A viscous term; may be repeated."),
+    kernel: str = typer.Option("cubic_spline", help="A kernel."),
+    h_over_dx: float = typer.Option(None, help="Smoothing length over spacing; default: a support of 3.14 dx."),
+    correction: str = typer.Option("none", help="A consistency correction: none, shepard, bonet_lok, renormalised."),
+    jitter: float = typer.Option(0.0, help="Random displacement of the particles in spacings, 0 to 1."),
+    sizes: str = typer.Option("20,40,60,80,100", help="Particles a side, separated by commas."),
+    field: str = typer.Option("quartic", help="A field's name or an expression of x, y and z."),
+    dim: int = typer.Option(2, "--dim", help="Dimension, 2 or 3."),
+    velocity: bool = typer.Option(False, help="Act on the divergence-free velocity whose stream function is the field."),
+    seed: int = typer.Option(0, help="Of the random displacements."),
+    seeds: int = typer.Option(1, help="How many sets of displacements to average over."),
+    edges: str = typer.Option("continued", help="continued: particles beyond the edges too; truncated: none."),
+    samples: str = typer.Option("interior", help="interior: particles whose support is in the square; all."),
+    fallback: str = typer.Option(None, help="Where neighbours are too few: uncorrected or nan; default: refuse."),
+    precision: str = typer.Option("float64", help="float64 or float32."),
+    threads: int = typer.Option(None, help="Default: all processors for many particles."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
+    out: str = typer.Option(None, metavar="DIR", help="Write figure (PNG, SVG), table (CSV) and JSON to this folder."),
+) -> None:
+    """Measure errors and orders of viscous terms against the exact Laplacian of a field."""
+    files = folder(out)
+    test = _settings(
+        viscosity=tuple(viscosity), kernel=kernel, h_over_dx=h_over_dx, correction=correction, jitter=jitter,
+        sizes=_sizes(sizes), field=field, dimension=dim, velocity=velocity, seed=seed, seeds=seeds, edges=edges,
+        samples=samples, fallback=fallback, precision=precision, threads=threads,
+    )  # fmt: skip
+    with progress("patch test") as tell:
+        rows = test.rows(tell)
+    table = _table(test, rows)
+    result = {"case": "patch-test", "settings": test.model_dump(mode="json"), "rows": rows}
+    if files is not None:
+        write(files, "patch-test", result, [table], {"patch-test": lambda: _figure(test, rows)})
+    if as_json:
+        print_json(result)
+        return
+    print_tables([table])
+    if files is not None:
+        print_files(files)
+
+
+def _sizes(text: str) -> tuple[int, ...]:
+    try:
+        sizes = tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise SphearError(f"sizes must be whole numbers separated by commas, such as 20,40, not {text!r}") from None
+    if min(sizes) < 1:
+        raise SphearError(f"sizes must be positive, not {min(sizes)}")
+    return sizes
+
+
+def _settings(**values: Any) -> PatchTest:
+    """The settings, checked: the first that is wrong in one sentence."""
+    from pydantic import ValidationError
+
+    from sphear.cases.patch_test import PatchTest
+
+    try:
+        return PatchTest(**values)
+    except ValidationError as error:
+        first = error.errors()[0]
+        name = str(first["loc"][0]).replace("_", "-")
+        message = first["msg"].removeprefix("Input ")
+        raise SphearError(f"{name} {message}, not {first['input']!r}") from None
+
+
+def _title(test: PatchTest) -> str:
+    particles = f"jitter {test.jitter:g} dx" if test.jitter else "lattice"
+    acted = f"velocity of stream function {test.field}" if test.velocity else test.field
+    return f"Patch test, {acted}, {test.dimension}-D, {test.kernel}, {particles}, edges {test.edges}"
+
+
+def _table(test: PatchTest, rows: list[dict[str, Any]]) -> Any:
+    from sphear.results.table import Column, Table
+
+    columns = (
+        Column("viscosity", "viscosity"),
+        Column("particles", "particles a side", "d"),
+        Column("l1", "L1", ".2e"),
+        Column("l2", "L2", ".2e"),
+        Column("max", "max", ".2e"),
+        Column("order", "order of L1", "+.2f"),
+        Column("paper", "L1 / M", ".2e"),
+    )
+    return Table(_title(test), columns, rows)
+
+
+def _figure(test: PatchTest, rows: list[dict[str, Any]]) -> Figure:
+    from sphear.results.figure import loglog_convergence
+
+    series = {
+        name: ([row["particles"] for row in rows if row["viscosity"] == name],
+               [row["l1"] for row in rows if row["viscosity"] == name])
+        for name in dict.fromkeys(row["viscosity"] for row in rows)
+    }  # fmt: skip
+    return loglog_convergence(series, "particles a side", "L1-relative error", _title(test), (-2, -1, 0))

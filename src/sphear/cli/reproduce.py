@@ -1,0 +1,36 @@
+"""`sphear reproduce`: tables and figures of a paper, computed again."""
+
+from __future__ import annotations
+
+import typer
+
+from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
+
+
+def reproduce(
+    paper: str = typer.Argument(..., metavar="PAPER", help="zheng2018 or basa2009."),
+    item: list[str] = typer.Argument(None, metavar="[ITEM]...", help="Such as table-1; default: all of the paper."),
+    quick: bool = typer.Option(False, "--quick", help="Fewer seeds and repetitions where an item is long."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON: one object for one item, a list for several."),
+    out: str = typer.Option(None, metavar="DIR", help="Write figures (PNG, SVG), tables (CSV) and JSON to this folder."),
+) -> None:
+    """Compute tables and figures of a paper again and say whether its findings hold."""
+    from sphear import studies
+
+    wanted = studies.items(paper, item or [])
+    files = folder(out)
+    results = []
+    for name in wanted:
+        with progress(f"{paper} {name}") as tell:
+            result = studies.reproduce(paper, name, quick=quick, progress=tell)
+            results.append(result.as_dict(paper, name))
+            if files is not None:
+                figures = {f"{paper}-{figure}": draw for figure, draw in result.figures.items()}
+                write(files, f"{paper}-{name}", results[-1], result.tables, figures)
+        if not as_json:
+            print_tables(result.tables)
+            print_text(f"  The paper: {result.claim}.\n  Found: {result.finding}.\n  Agrees: {result.agrees}.\n")
+    if as_json:
+        print_json(results[0] if len(results) == 1 else results)
+    elif files is not None:
+        print_files(files)

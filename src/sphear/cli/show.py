@@ -1,0 +1,46 @@
+"""`sphear show`: the card of one kernel, viscous term, correction, study or case."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import typer
+
+from sphear.cli.catalogue import described, kind_of
+from sphear.cli.output import print_json, print_text
+
+
+def show(
+    kind: str = typer.Argument(..., metavar="KIND", help="kernels, viscosity, corrections, studies or cases."),
+    name: str = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
+    as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),
+) -> None:
+    """Show formula, source and measured properties of one thing."""
+    facts = described(kind_of(kind), name)
+    if as_json:
+        print_json(facts)
+    elif facts["kind"] == "viscosity":
+        from sphear.viscosity.card import card
+
+        print_text(card(None, facts["name"]).text())
+    else:
+        print_text(_lines(facts))
+
+
+def _lines(facts: Mapping[str, Any]) -> str:
+    lines = [str(facts["name"])]
+    for key, value in facts.items():
+        if key in ("kind", "name") or value in ([], None):
+            continue
+        if isinstance(value, Mapping):
+            lines += [f"  {key}", *(f"    {name:<12} {_short(item)}" for name, item in value.items())]
+        else:
+            lines.append(f"  {key:<12} {_short(value)}")
+    return "\n".join(lines)
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return ", ".join(map(_short, value))
+    return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,59 @@
+"""Studies: each table and figure of a paper, computed again and compared.
+
+The catalogue knows the title and the module of each item, so that it can be listed without importing any.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from sphear.errors import SphearError
+from sphear.names import unknown
+from sphear.studies.result import Progress, StudyResult, no_progress
+
+PAPERS = {
+    "zheng2018": "Zheng, Ma & Shao 2018, Study on SPH viscosity term formulations, Applied Sciences 8(2):249",
+    "basa2009": "Basa, Quinlan & Lastiwka 2009, Robustness and accuracy of SPH formulations for viscous flow, IJNMF 60:1127",
+}
+
+ITEMS: dict[str, dict[str, str]] = {
+    "zheng2018": {
+        "table-1": "errors of four viscous terms on a lattice",
+        "table-2": "errors of four viscous terms on jittered particles",
+        "table-3": "time that four viscous terms take",
+        "figure-1": "the particles, on a lattice and jittered",
+        "figure-2": "the Laplacian along x = 0.5 on a lattice",
+        "figure-3": "convergence on a lattice",
+        "figure-4": "the Laplacian along x = 0.5 on jittered particles",
+        "figure-5": "convergence on jittered particles",
+        "figure-6": "time against the number of particles",
+    },
+    "basa2009": {"figure-1": "second derivatives of the cubic spline in 2-D"},
+}
+
+
+def items(paper: str, wanted: list[str]) -> list[str]:
+    """The items asked for, all if none; raises SphearError for an unknown paper or item."""
+    if paper not in ITEMS:
+        raise unknown("paper", paper, ITEMS)
+    for item in wanted:
+        if item not in ITEMS[paper]:
+            raise unknown(f"item of {paper}", item, ITEMS[paper])
+    return list(dict.fromkeys(wanted)) or list(ITEMS[paper])
+
+
+def reproduce(paper: str, item: str, *, quick: bool = False, progress: Progress = no_progress) -> StudyResult:
+    """Compute one table or figure again.
+
+    Args:
+        paper: a key of `ITEMS`.
+        item: such as "table-1".
+        quick: fewer seeds and sizes, where the item is long.
+        progress: told what is being computed.
+    """
+    (item,) = items(paper, [item])
+    module = import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}")
+    result = module.run(quick=quick, progress=progress)
+    if not isinstance(result, StudyResult):
+        raise SphearError(f"the study {paper} {item} gave no result")
+    return result

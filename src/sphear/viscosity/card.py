@@ -1,0 +1,97 @@
+"""The card of a viscous term: its formula and source, and what was measured of it."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sphear.viscosity.base import ViscousTerm
+
+
+@lru_cache
+def measured() -> dict[str, Any]:
+    """What `validation/measure_cards.py` has measured, by the term's name."""
+    facts: dict[str, Any] = json.loads((Path(__file__).parent / "measured.json").read_text(encoding="utf-8"))
+    return facts
+
+
+@dataclass(frozen=True)
+class Card:
+    """What is known of a viscous term. Properties without corrections and with equal volumes, in 2-D."""
+
+    name: str
+    setting: str
+    aliases: tuple[str, ...]
+    formula: str
+    source: str
+    acts_on: str
+    correction: str
+    properties: dict[str, Any]
+
+    def as_dict(self) -> dict[str, Any]:
+        """The card's facts by name."""
+        return {
+            "setting": self.setting,
+            "formula": self.formula,
+            "source": self.source,
+            "acts_on": self.acts_on,
+            "correction": self.correction,
+            **self.properties,
+        }
+
+    def text(self) -> str:
+        """The card as lines of text."""
+        lines = [
+            self.setting,
+            f"  formula          du/dt = {self.formula}",
+            f"  source           {self.source}",
+            f"  aliases          {', '.join(self.aliases) or 'none'}",
+            f"  acts on          {self.acts_on}",
+            f"  corrections      {self.correction}",
+        ]
+        if self.properties:
+            lines += self._measured_lines()
+        return "\n".join(lines)
+
+    def _measured_lines(self) -> list[str]:
+        facts = self.properties
+
+        def held(name: str) -> str:
+            return "yes" if facts[name] else "no"
+
+        return [
+            f"  order, lattice   {facts['order_lattice']:+.1f}   (of the L1 error in dx, h fixed in dx)",
+            f"  order, jittered  {facts['order_jittered']:+.1f}   (jitter 0.3 dx)",
+            f"  conserves        linear momentum: {held('linear_momentum')}, angular momentum:"
+            f" {held('angular_momentum')}; only dissipates: {held('dissipative')}",
+            f"  cost per pair    {facts['cost']:.1f}   (morris = 1)",
+        ]
+
+
+def card(term: ViscousTerm | None, name: str | None = None) -> Card:
+    """The card of a term; of the named one where none is given.
+
+    Measured properties are shown for the settings that they were measured with, those that have a name.
+    """
+    from sphear.viscosity import VISCOSITY
+
+    if term is None:
+        assert name is not None
+        term = VISCOSITY[name]
+    known = next((key for key in VISCOSITY if VISCOSITY[key] == term), None)
+    fields = ", ".join(f"{field.name}={getattr(term, field.name)!r}" for field in dataclasses.fields(term))
+    return Card(
+        name=known or term.name,
+        setting=f"{type(term).__name__}({fields})",
+        aliases=tuple(VISCOSITY.aliases(known or term.name)),
+        formula=term.formula,
+        source=term.source,
+        acts_on="velocities" if term.radial else "velocities, and scalar fields as the Laplacian of each component",
+        correction="its own; takes no other" if term.own_correction else "none, shepard, bonet_lok, renormalised",
+        properties=measured().get(known, {}) if known else {},
+    )
