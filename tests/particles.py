@@ -36,13 +36,12 @@ def box(counts: tuple[int, ...], dx: float = 1.0) -> Domain:
 
 
 def all_pairs(positions: Array, support: float, domain: Domain | None = None) -> tuple[Array, Array, Array]:
-    """(i, j, r_i - r_j) of all pairs nearer than the support, periodic images included, by looking at every one."""
-    images = [()] if domain is None else [range(-9, 10) if flag else (0,) for flag in _flags(domain)]
-    shifts = (
-        np.zeros((1, positions.shape[1]))
-        if domain is None
-        else np.array(list(product(*images))) * np.subtract(domain.upper, domain.lower)
-    )
+    """(i, j, r_i - r_j) of all pairs nearer than the support, periodic images included, by looking at all."""
+    shifts = np.zeros((1, positions.shape[1]))
+    if domain is not None:
+        periods = np.subtract(domain.upper, domain.lower)
+        most = [int(2 + support / period) if axis in domain.periodic_axes else 0 for axis, period in enumerate(periods)]
+        shifts = np.array(list(product(*(range(-n, n + 1) for n in most)))) * periods
     firsts, seconds, differences = [], [], []
     for shift in shifts:
         d = positions[:, None, :] - positions[None, :, :] - shift
@@ -62,6 +61,3 @@ def summed(i: Array, values: Array, count: int) -> Array:
     np.add.at(total, i, values)
     return total
 
-
-def _flags(domain: Domain) -> tuple[bool, ...]:
-    return tuple(axis in domain.periodic_axes for axis in range(domain.dimension))

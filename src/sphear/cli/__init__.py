@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Any
 
 import typer
 
@@ -14,7 +15,7 @@ from sphear.cli.show import show
 from sphear.errors import SphearError
 
 # what Typer raises for wrong options; it is not under a public name of its own
-_UsageError = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+_UsageError: Any = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 
 app = typer.Typer(
     name="sphear",
@@ -40,7 +41,9 @@ def _version(wanted: bool) -> None:
 
 
 @app.callback()
-def _options(version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="The version.")) -> None:
+def _options(
+    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="The version."),
+) -> None:
     pass
 
 
@@ -51,7 +54,7 @@ def main() -> None:
     except SphearError as error:
         _fail(str(error), 2)
     except _UsageError as error:
-        text = error.format_message()  # type: ignore[attr-defined]
+        text = error.format_message()
         _fail(text[:1].lower() + text[1:].rstrip("."), 2) if text else sys.exit(2)
     except (KeyboardInterrupt, typer.Abort):
         _fail("interrupted; nothing half-written is left", 130)

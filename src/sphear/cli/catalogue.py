@@ -8,7 +8,13 @@ from typing import Any
 from sphear.names import unknown
 
 KINDS = ("kernels", "viscosity", "corrections", "studies", "cases")
-_SINGULAR = {"kernel": "kernels", "correction": "corrections", "study": "studies", "case": "cases", "viscous": "viscosity"}
+_SINGULAR = {
+    "kernel": "kernels",
+    "correction": "corrections",
+    "study": "studies",
+    "case": "cases",
+    "viscous": "viscosity",
+}
 
 CASES = {"patch-test": "the Laplacian of a known field on a lattice or on jittered particles, against the exact one"}
 
@@ -57,8 +63,8 @@ def _registry(kind: str) -> Any:
 def _first_line(item: Any) -> str:
     """What the module of a kernel, correction or viscous term says of it."""
     module = inspect.getmodule(item if inspect.isclass(item) else type(item))
-    assert module is not None and module.__doc__ is not None
-    return module.__doc__.strip().splitlines()[0].rstrip(".")
+    text = module.__doc__ if module else None
+    return (text or "").strip().splitlines()[0].rstrip(".")
 
 
 def described(kind: str, name: str) -> dict[str, Any]:

@@ -9,7 +9,9 @@ from sphear.cli.output import print_json, print_tables
 
 
 def list_names(
-    kind: str = typer.Argument(None, metavar="[kernels|viscosity|corrections|studies|cases]", help="Default: all."),
+    kind: str | None = typer.Argument(
+        None, metavar="[kernels|viscosity|corrections|studies|cases]", help="Default: all."
+    ),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of tables."),
 ) -> None:
     """List kernels, viscous terms, corrections, studies or cases."""

@@ -16,24 +16,26 @@ if TYPE_CHECKING:
 
 
 def patch_test(
-    viscosity: list[str] = typer.Option(["morris"], "--viscosity", "-v", help="A viscous term; may be repeated."),
+    viscosity: list[str] = typer.Option(("morris",), "--viscosity", "-v", help="A viscous term; may be repeated."),
     kernel: str = typer.Option("cubic_spline", help="A kernel."),
-    h_over_dx: float = typer.Option(None, help="Smoothing length over spacing; default: a support of 3.14 dx."),
+    h_over_dx: float | None = typer.Option(None, help="Smoothing length over spacing; default: a support of 3.14 dx."),
     correction: str = typer.Option("none", help="A consistency correction: none, shepard, bonet_lok, renormalised."),
     jitter: float = typer.Option(0.0, help="Random displacement of the particles in spacings, 0 to 1."),
     sizes: str = typer.Option("20,40,60,80,100", help="Particles a side, separated by commas."),
     field: str = typer.Option("quartic", help="A field's name or an expression of x, y and z."),
     dim: int = typer.Option(2, "--dim", help="Dimension, 2 or 3."),
-    velocity: bool = typer.Option(False, help="Act on the divergence-free velocity whose stream function is the field."),
+    velocity: bool = typer.Option(
+        False, help="Act on the divergence-free velocity whose stream function is the field."
+    ),
     seed: int = typer.Option(0, help="Of the random displacements."),
     seeds: int = typer.Option(1, help="How many sets of displacements to average over."),
     edges: str = typer.Option("continued", help="continued: particles beyond the edges too; truncated: none."),
     samples: str = typer.Option("interior", help="interior: particles whose support is in the square; all."),
-    fallback: str = typer.Option(None, help="Where neighbours are too few: uncorrected or nan; default: refuse."),
+    fallback: str | None = typer.Option(None, help="Where neighbours are too few: uncorrected or nan."),
     precision: str = typer.Option("float64", help="float64 or float32."),
-    threads: int = typer.Option(None, help="Default: all processors for many particles."),
+    threads: int | None = typer.Option(None, help="Default: all processors for many particles."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
-    out: str = typer.Option(None, metavar="DIR", help="Write figure (PNG, SVG), table (CSV) and JSON to this folder."),
+    out: str | None = typer.Option(None, metavar="DIR", help="Write figure, table and JSON to this folder."),
 ) -> None:
     """Measure errors and orders of viscous terms against the exact Laplacian of a field."""
     files = folder(out)

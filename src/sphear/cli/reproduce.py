@@ -9,10 +9,10 @@ from sphear.cli.output import folder, print_files, print_json, print_tables, pri
 
 def reproduce(
     paper: str = typer.Argument(..., metavar="PAPER", help="zheng2018 or basa2009."),
-    item: list[str] = typer.Argument(None, metavar="[ITEM]...", help="Such as table-1; default: all of the paper."),
+    item: list[str] | None = typer.Argument(None, metavar="[ITEM]...", help="Such as table-1; default: all."),
     quick: bool = typer.Option(False, "--quick", help="Fewer seeds and repetitions where an item is long."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON: one object for one item, a list for several."),
-    out: str = typer.Option(None, metavar="DIR", help="Write figures (PNG, SVG), tables (CSV) and JSON to this folder."),
+    out: str | None = typer.Option(None, metavar="DIR", help="Write figures, tables and JSON to this folder."),
 ) -> None:
     """Compute tables and figures of a paper again and say whether its findings hold."""
     from sphear import studies

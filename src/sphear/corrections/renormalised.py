@@ -21,8 +21,8 @@ def safe_inverse(moment: Matrix) -> tuple[Scalar, Matrix]:
     mean = (1.0 / dimension) * trace(moment)
     det = determinant(moment)
     size = mean**dimension
-    quality = where_less(1e-12, size, det / size, 0.0)
-    factor = where_less(LEAST_QUALITY, quality, 1.0 / det, 0.0)
+    quality = where_less(1e-12, size, det / where_less(1e-12, size, size, 1.0), 0.0)
+    factor = where_less(LEAST_QUALITY, quality, 1.0 / where_less(LEAST_QUALITY, quality, det, 1.0), 0.0)
     return quality, tuple(scale(factor, row) for row in adjugate(moment))
 
 

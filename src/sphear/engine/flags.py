@@ -10,6 +10,13 @@ FASTMATH = ("nnan", "ninf", "nsz", "arcp", "contract", "reassoc", "afn")
 OPTIONS = {"fastmath": set(FASTMATH), "error_model": "numpy", "nogil": True, "cache": True}
 
 
+def options_text() -> str:
+    """The options as generated code has them: the same text in every process, for the text's hash is its name."""
+    flags = ", ".join(map(repr, sorted(FASTMATH)))
+    others = ", ".join(f"{key}={value!r}" for key, value in OPTIONS.items() if key != "fastmath")
+    return f"fastmath={{{flags}}}, {others}"
+
+
 def register_bytes() -> int:
     """Bytes of the widest vector register of this processor: 64 with AVX-512, else 32.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from itertools import count
 from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
@@ -22,7 +22,7 @@ class Interaction(Protocol):
     """
 
     def pair(self, own: Any, other: Any, d: tuple[Any, ...], r2: Any) -> tuple[Any, ...]:
-        """What the pair contributes to the sum of `own`."""
+        """What the pair contributes to the sum of `own`; it must be zero from the support on, as kernels are."""
 
     def finish(self, own: Any, total: Any) -> tuple[Any, ...]:
         """The result for `own`, from the sum over its neighbours."""
@@ -51,8 +51,10 @@ class TracedFormula:
     result: Any  # a structure of the form of the result
 
 
-@lru_cache(maxsize=None)
-def _traced(key: Any, holder: _Unhashed, dimension: int, shared: tuple[Shape, ...], own_only: tuple[Shape, ...]) -> Any:
+@cache
+def _traced(
+    key: Any, holder: _Unhashed, dimension: int, shared: tuple[Shape, ...], own_only: tuple[Shape, ...]
+) -> TracedFormula:
     trace = Trace()
     numbers = count()
     formula = with_symbols(holder.value, lambda: trace.input(f"p{next(numbers)}"))
@@ -138,7 +140,7 @@ def traced(
 class Sum:
     """Mix-in for interactions whose result is the sum itself."""
 
-    def finish(self, own: Any, total: Any) -> tuple[Any, ...]:
+    def finish(self, own: Any, total: Any) -> Any:
         """The sum, unchanged."""
         return total
 

@@ -70,12 +70,12 @@ def _first_lanes(arguments: Any) -> Lanes | None:
 
 def _binary(operation: Callable[..., Any], instruction: str) -> None:
     @infer_global(operation)
-    class _Typing(AbstractTemplate):  # type: ignore[misc]
+    class _Typing(AbstractTemplate):
         key = operation
 
         def generic(self, args: Any, kws: Any) -> Any:
             lanes = _first_lanes(args)
-            return lanes and len(args) == 2 and signature(lanes, *args) or None
+            return signature(lanes, *args) if lanes and len(args) == 2 else None
 
     def lower(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         x, y = (as_lanes(context, builder, v, t, sig.return_type) for v, t in zip(args, sig.args, strict=True))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sphear.engine.flags import OPTIONS, lane_count
+from sphear.engine.flags import lane_count, options_text
 from sphear.engine.formula import TracedFormula
 
 _SWEEP = '''
@@ -53,7 +53,8 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
     own = [f"own_x{axis} = records[i, {axis}]" for axis in axes]
     own += [f"own_{f}_{k} = records[i, {dimension + column}]" for column, (f, k) in enumerate(formula.columns)]
     own += [
-        f"{name} = own[row - origin, {column}]" for name, column in zip(formula.own_names, formula.own_columns, strict=True)
+        f"{name} = own[row - origin, {column}]"
+        for name, column in zip(formula.own_names, formula.own_columns, strict=True)
     ]
     sums = range(len(formula.pair_outputs))
     return _SWEEP.format(
@@ -61,7 +62,7 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
         width=width,
         loaded=len(others),
         dtype=dtype,
-        options=", ".join(f"{key}={value!r}" for key, value in OPTIONS.items()),
+        options=options_text(),
         parameters=_block([f"p{k} = parameters[{k}]" for k in range(formula.parameter_count)], 4),
         own=_block(own, 8),
         zeros=_block([f"sum{k} = zeros()" for k in sums], 8),

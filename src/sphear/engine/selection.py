@@ -66,8 +66,10 @@ def population(typingctx, bits):  # type: ignore[no-untyped-def]
 
 @intrinsic
 def store_selected(typingctx, numbers, at, first, bits, table):  # type: ignore[no-untyped-def]
-    """Write the numbers first + (positions of the set bits) to numbers[at:]; all eight are written, without a branch,
-    and those that are not selected are overwritten by the next call."""
+    """Write the numbers first + (positions of the set bits) to numbers[at:].
+
+    All eight are written, without a branch; those that are not selected are overwritten by the next call.
+    """
 
     def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
         target = context.make_array(sig.args[0])(context, builder, args[0])

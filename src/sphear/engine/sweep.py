@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
 from sphear.engine.program import sweep_text
 from sphear.engine.records import empty_records, pack
 from sphear.engine.structure import leaves, parameters
-from sphear.engine.threads import run_all
+from sphear.engine.threads import on_threads
 
 if TYPE_CHECKING:
     from sphear.neighbours import Chunk, Neighbours
@@ -26,7 +26,7 @@ Fields = Mapping[str, Array]
 FAR = 1.001  # supports: where lanes without a neighbour are put
 
 
-@lru_cache(maxsize=None)
+@cache
 def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) -> Any:
     return generated_module(sweep_text(formula, title, dimension, dtype)).sweep
 
@@ -68,8 +68,9 @@ class Sweep:
         for axis in range(neighbours.dimension):
             records[:, axis] = neighbours.coordinates[axis, : len(records)]
         column = neighbours.dimension
-        for name, used in groupby(formula.columns, key=lambda cell: cell[0]):
-            components = [component for _, component in used]
+        # columns of one field with components that follow each other are packed by one copy
+        for (name, _), run in groupby(enumerate(formula.columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
+            components = [component for _, (_, component) in run]
             values = self.fields[name].reshape(neighbours.count, -1)
             column = pack(records, column, values[:, components[0] : components[-1] + 1], neighbours.source)
         return records
@@ -98,8 +99,11 @@ class Sweep:
     def everywhere(self) -> Array:
         """The result of all particles, (N, outputs), in their own order."""
         out = np.empty((self.neighbours.count, self.outputs), self.dtype)
-        jobs = [lambda chunk=chunk: self.over(chunk, out, self.neighbours.particles(chunk)) for chunk in self.neighbours.chunks]
-        run_all(jobs, self.neighbours.threads)
+
+        def job(chunk: Chunk) -> None:
+            self.over(chunk, out, self.neighbours.particles(chunk))
+
+        on_threads(job, self.neighbours.chunks, self.neighbours.threads)
         return out
 
 

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from sphear.errors import SphearError
 
+S = TypeVar("S")
 T = TypeVar("T")
 
 WORTH_A_THREAD = 10_000  # particles: below, handing out work costs more than it saves
@@ -33,8 +34,8 @@ def _pool(threads: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="sphear")
 
 
-def run_all(jobs: Sequence[Callable[[], T]], threads: int) -> list[T]:
-    """The results of all jobs, in order; the first error of any is raised."""
-    if threads == 1 or len(jobs) < 2:
-        return [job() for job in jobs]
-    return list(_pool(threads).map(lambda job: job(), jobs))
+def on_threads(function: Callable[[S], T], items: Sequence[S], threads: int) -> list[T]:
+    """function(item) of each item, in their order; the first error of any is raised."""
+    if threads == 1 or len(items) < 2:
+        return [function(item) for item in items]
+    return list(_pool(threads).map(function, items))

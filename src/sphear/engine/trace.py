@@ -67,7 +67,11 @@ class Symbol:
     def __bool__(self) -> bool:
         raise TypeError("a formula may not branch on a value: use where_less or positive_part")
 
-    __lt__ = __gt__ = __le__ = __ge__ = lambda self, other: self.__bool__()
+    def __eq__(self, other: object) -> bool:
+        return bool(self)
+
+    __lt__ = __gt__ = __le__ = __ge__ = __eq__
+    __hash__ = object.__hash__
 
 
 def _is(value: Any, number: int) -> bool:

@@ -16,7 +16,9 @@ class WendlandC2(Kernel):
     name = "wendland_c2"
     aliases = ("wendland",)
     formula = "w(q) = (1 - q/2)+^4 (2 q + 1); in 1-D (1 - q/2)+^3 (3/2 q + 1)"
-    source = "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
+    source = (
+        "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
+    )
     support = 2.0
     sigma = (5 / 8, 7 / (4 * pi), 21 / (16 * pi))
 

@@ -15,7 +15,9 @@ class WendlandC4(Kernel):
 
     name = "wendland_c4"
     formula = "w(q) = (1 - q/2)+^6 (35/12 q^2 + 3 q + 1); in 1-D (1 - q/2)+^5 (2 q^2 + 5/2 q + 1)"
-    source = "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
+    source = (
+        "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
+    )
     support = 2.0
     sigma = (3 / 4, 9 / (4 * pi), 495 / (256 * pi))
 

@@ -14,11 +14,10 @@ class WendlandC6(Kernel):
     """Wendland's C6 function."""
 
     name = "wendland_c6"
-    formula = (
-        "w(q) = (1 - q/2)+^8 (4 q^3 + 25/4 q^2 + 4 q + 1); "
-        "in 1-D (1 - q/2)+^7 (21/8 q^3 + 19/4 q^2 + 7/2 q + 1)"
+    formula = "w(q) = (1 - q/2)+^8 (4 q^3 + 25/4 q^2 + 4 q + 1); in 1-D (1 - q/2)+^7 (21/8 q^3 + 19/4 q^2 + 7/2 q + 1)"
+    source = (
+        "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
     )
-    source = "Wendland 1995; Dehnen & Aly 2012, Improving convergence in SPH without pairing instability, MNRAS 425:1068"
     support = 2.0
     sigma = (55 / 64, 39 / (14 * pi), 1365 / (512 * pi))
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from sphear.engine.threads import run_all, thread_count
+from sphear.engine.threads import on_threads, thread_count
 from sphear.errors import SphearError
 from sphear.neighbours.cells import CellSort, cell_sort
 from sphear.neighbours.domain import Domain
@@ -79,13 +80,15 @@ class Neighbours:
     def _chunks(self, cells: CellSort, keep_coincident: bool) -> list[Chunk]:
         parts = max(self.threads, -(-self.count // CHUNK_ROWS))
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
-        ranges = [(a, b) for a, b in zip(bounds, bounds[1:], strict=False) if a < b]
-        built = run_all(
-            [lambda a=a, b=b: build_chunk(cells, self.entry, a, b, self.support, keep_coincident) for a, b in ranges],
-            self.threads,
-        )
-        if not keep_coincident and sum(coincident for _, coincident in built):
-            self._refuse_coincident(next(chunk for chunk, coincident in built if coincident))
+        ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
+
+        def build(rows: tuple[int, int]) -> tuple[Chunk, int]:
+            return build_chunk(cells, self.entry, *rows, self.support, keep_coincident)
+
+        built = on_threads(build, ranges, self.threads)
+        for chunk, coincident in built:
+            if coincident and not keep_coincident:
+                self._refuse_coincident(chunk)
         return [chunk for chunk, _ in built]
 
     def _refuse_coincident(self, chunk: Chunk) -> None:
@@ -93,8 +96,9 @@ class Neighbours:
 
         points = self.coordinates[:, : len(self.source)].T
         entries = self.entry[chunk.begin : chunk.end]
-        distances, nearest = cKDTree(points).query(points[entries], k=2)
-        a, b = self.source[nearest[np.argmin(distances[:, 1])]]  # both are at no distance, in any order
-        place = ", ".join(f"{x:.6g}" for x in points[nearest[np.argmin(distances[:, 1])][0]])
+        distances, nearest = map(np.asarray, cKDTree(points).query(points[entries], k=2))
+        pair = nearest[np.argmin(distances[:, 1])]  # the particle and the other one, in any order
+        a, b = self.source[pair]
+        place = ", ".join(f"{x:.6g}" for x in points[pair[0]])
         what = f"particles {min(a, b)} and {max(a, b)} are" if a != b else f"particle {a} and its periodic image are"
         raise SphearError(f"{what} at the same place ({place}): particles must be apart")

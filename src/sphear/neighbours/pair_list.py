@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from sphear.engine.cache import generated_module
-from sphear.engine.flags import OPTIONS
+from sphear.engine.flags import options_text
 from sphear.engine.selection import selection_table
 from sphear.neighbours.cells import REACH, CellSort
 
@@ -54,7 +54,7 @@ def build({axes}, start, rows, cell, entry, first, neighbour, count, low, high, 
 def _builder(dimension: int) -> Any:
     names = "xyz"[:dimension]
     text = _BUILD.format(
-        options=", ".join(f"{key}={value!r}" for key, value in OPTIONS.items()),
+        options=options_text(),
         axes=", ".join(names),
         own="; ".join(f"{a}_i = {a}[i]" for a in names),
         differences="; ".join(f"d{a} = load_lanes({a}, j) - {a}_i" for a in names),

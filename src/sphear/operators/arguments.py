@@ -38,7 +38,9 @@ def read_field(values: ArrayLike, name: str, count: int) -> Array:
     """A field as an array (N, k) of finite numbers."""
     array = _numbers(values, name)
     if array.ndim not in (1, 2) or len(array) != count:
-        raise SphearError(f"{name} must have the shape ({count},) or ({count}, k) as the positions do, not {array.shape}")
+        raise SphearError(
+            f"{name} must have the shape ({count},) or ({count}, k) as the positions do, not {array.shape}"
+        )
     _finite(array, name)
     return array.reshape(count, -1)
 
@@ -47,7 +49,9 @@ def read_property(values: ArrayLike, name: str, count: int) -> Array:
     """A positive property of each particle, (N,), from one number for all or one for each."""
     array = _numbers(values, name)
     if array.shape not in ((), (1,), (count,)):
-        raise SphearError(f"{name} must be one number or have the shape ({count},) as the positions do, not {array.shape}")
+        raise SphearError(
+            f"{name} must be one number or have the shape ({count},) as the positions do, not {array.shape}"
+        )
     _finite(array, name)
     if not (array > 0).all():
         raise SphearError(f"{name} must be positive, but the least is {array.min():g}")
@@ -96,13 +100,14 @@ def read_spacing(spacing: float | None, positions: Array, volumes: Array | None,
     if volumes is not None:
         return float(volumes.mean() ** (1 / dimension))
     if domain is not None and len(domain.periodic_axes) == dimension:
-        return float(np.prod(np.subtract(domain.upper, domain.lower)) / count) ** (1 / dimension)
+        return float((np.prod(np.subtract(domain.upper, domain.lower)) / count) ** (1 / dimension))
     extent = np.ptp(positions, axis=0)
     extent = extent[extent > 0]
     intervals = count ** (1 / max(1, len(extent))) - 1
     if not len(extent) or intervals <= 0:
         raise SphearError("the particle spacing cannot be told from these positions: give spacing, volumes or a kernel")
-    return float(np.prod(extent) ** (1 / len(extent)) / intervals)
+    volume = float(np.prod(extent))
+    return float(volume ** (1 / len(extent)) / intervals)
 
 
 def particle_volumes(kernel: Kernel, neighbours: Neighbours) -> Array:
@@ -111,7 +116,7 @@ def particle_volumes(kernel: Kernel, neighbours: Neighbours) -> Array:
 
 
 def read_precision(precision: str) -> str:
-    """ "float64" or "float32"."""
+    """The precision of sums: "float64" or "float32"."""
     if precision not in ("float64", "float32"):
         raise SphearError(f"precision must be 'float64' or 'float32', not {precision!r}")
     return precision
@@ -127,6 +132,6 @@ def _numbers(values: ArrayLike, name: str) -> Array:
 def _finite(array: Array, name: str) -> None:
     bad = np.flatnonzero(~np.isfinite(array.reshape(len(array) if array.ndim else 1, -1)).all(axis=1))
     if len(bad):
-        raise SphearError(f"{name} must be finite, but {len(bad)} of {max(1, len(array))} are not, first particle {bad[0]}")
-
-
+        raise SphearError(
+            f"{name} must be finite, but {len(bad)} of {max(1, len(array))} are not, first particle {bad[0]}"
+        )

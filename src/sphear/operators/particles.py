@@ -8,13 +8,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sphear.corrections import Correction
-from sphear.engine.formula import Interaction
+from sphear.corrections import Correction, NoCorrection
 from sphear.errors import SphearError, TooFewNeighboursError
+from sphear.interactions import Gradient
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
-from sphear.operators.pipeline import run
+from sphear.operators.pipeline import Operation, run
 from sphear.viscosity import ViscousTerm, uncorrected
 
 Array = np.ndarray[Any, Any]
@@ -90,30 +90,34 @@ class Particles:
         fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
         return self._apply(term, correction, fields, fallback, "acceleration_stages")
 
+    def gradient(
+        self, values: Array, correction: Correction, of_differences: bool = True, fallback: Fallback | None = None
+    ) -> Array:
+        """The gradient of each column of values (N, k), (N, k d)."""
+
+        def operation(c: Correction) -> Operation:
+            return Operation((Gradient(self.kernel, c, of_differences),), c.preparation(self.kernel))
+
+        what = f"correction {correction.name!r}"
+        return self.applied(operation(correction), operation(NoCorrection()), {"values": values}, fallback, what)
+
     def _apply(
         self, term: ViscousTerm, correction: Correction, fields: dict[str, Array], fallback: Any, stages: str
     ) -> Array:
-        def sweeps(t: ViscousTerm, c: Correction) -> tuple[tuple[Interaction, ...], Any]:
-            return getattr(t, stages)(self.kernel, c), t.preparation(self.kernel, c)
+        def operation(t: ViscousTerm, c: Correction) -> Operation:
+            return Operation(getattr(t, stages)(self.kernel, c), t.preparation(self.kernel, c))
 
         what = f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
-        plain = uncorrected(term)
-        return self.swept(*sweeps(term, correction), fields, fallback, what, lambda: sweeps(*plain))
+        return self.applied(operation(term, correction), operation(*uncorrected(term)), fields, fallback, what)
 
-    def swept(
-        self,
-        stages: tuple[Interaction, ...],
-        preparation: Any,
-        fields: dict[str, Array],
-        fallback: Fallback | None,
-        what: str,
-        plain: Any,
+    def applied(
+        self, operation: Operation, plain: Operation, fields: dict[str, Array], fallback: Fallback | None, what: str
     ) -> Array:
-        """Run sweeps; where the preparation is deficient refuse, or do as `fallback` says with the sweeps of plain()."""
+        """The result of an operation; where its preparation is deficient `plain` stands in, or it is refused."""
         if fallback not in (None, "uncorrected", "nan"):
             raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
         fields = {"volume": self.volumes, **fields}
-        outcome = run(stages, preparation, self.neighbours, fields, self.precision)
+        outcome = run(operation, self.neighbours, fields, self.precision)
         lacking = outcome.deficient
         if len(lacking) and fallback is None:
             place = ", ".join(f"{x:.6g}" for x in self.positions[lacking[0]])
@@ -122,16 +126,7 @@ class Particles:
                 f" particle {lacking[0]} at ({place}): take a larger h, or ask for fallback 'uncorrected' or 'nan'"
             )
         if len(lacking):
-            substitute = run(*plain(), self.neighbours, fields, self.precision).values if fallback != "nan" else None
-            outcome.values[lacking] = np.nan if substitute is None else substitute[lacking]
+            outcome.values[lacking] = np.nan
+        if len(lacking) and fallback == "uncorrected":
+            outcome.values[lacking] = run(plain, self.neighbours, fields, self.precision).values[lacking]
         return outcome.values
-
-
-def gradient_sweeps(kernel: Kernel, correction: Correction, of_differences: bool) -> tuple[Any, Any]:
-    """The stages and the preparation of a gradient."""
-    from sphear.interactions import Gradient
-
-    return (Gradient(kernel, correction, of_differences),), correction.preparation(kernel)
-
-
-

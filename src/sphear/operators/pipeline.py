@@ -10,10 +10,23 @@ import numpy as np
 
 from sphear.engine.formula import Interaction
 from sphear.engine.sweep import Sweep
-from sphear.engine.threads import run_all
+from sphear.engine.threads import on_threads
 from sphear.neighbours import Chunk, Neighbours
 
 Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class Operation:
+    """The sweeps of an operator.
+
+    Attributes:
+        stages: interactions, each knowing the result of the one before as the field `before`.
+        preparation: the interaction whose result they know as `own.prepared`; None if they need none.
+    """
+
+    stages: Sequence[Interaction]
+    preparation: Any = None
 
 
 @dataclass(frozen=True)
@@ -58,26 +71,19 @@ class Preparation:
         return out, np.flatnonzero(~(out[:, 0] > self.interaction.least_quality))
 
 
-def run(
-    stages: Sequence[Interaction],
-    preparation: Any,
-    neighbours: Neighbours,
-    fields: dict[str, Array],
-    dtype: str = "float64",
-) -> Outcome:
-    """The sweeps of `stages` one after the other, each with the result of the one before as the field `before`.
+def run(operation: Operation, neighbours: Neighbours, fields: dict[str, Array], dtype: str = "float64") -> Outcome:
+    """The stages of an operation one after the other.
 
     Args:
-        stages: interactions.
-        preparation: the interaction whose result they know as `own.prepared`, or None.
+        operation: what is summed.
         neighbours: the pairs.
         fields: arrays (N,) or (N, k), by name; with `volume`.
         dtype: "float64" or "float32".
     """
-    prepared = Preparation(preparation, neighbours, fields["volume"], dtype)
+    prepared = Preparation(operation.preparation, neighbours, fields["volume"], dtype)
     deficient: list[Array] = []
     result = np.empty((neighbours.count, 0))
-    for number, stage in enumerate(stages):
+    for number, stage in enumerate(operation.stages):
         known = fields if number == 0 else {**fields, "before": result}
         sweep = Sweep(stage, neighbours, known, own=prepared.template, dtype=dtype)
         out = np.empty((neighbours.count, sweep.outputs), dtype)
@@ -88,8 +94,6 @@ def run(
                 deficient.append(neighbours.particles(chunk)[lacking])
             sweep.over(chunk, out, neighbours.particles(chunk), own)
 
-        run_all([lambda chunk=chunk: job(chunk) for chunk in neighbours.chunks], neighbours.threads)
+        on_threads(job, neighbours.chunks, neighbours.threads)
         result = out
     return Outcome(result, np.sort(np.concatenate(deficient)) if deficient else np.empty(0, np.int64))
-
-

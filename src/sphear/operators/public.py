@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sphear.corrections import Correction, NoCorrection
+from sphear.corrections import Correction
 from sphear.engine.sweep import sweep
 from sphear.errors import SphearError
 from sphear.interactions import Interpolation
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
-from sphear.operators.particles import Fallback, Particles, gradient_sweeps
+from sphear.operators.particles import Fallback, Particles
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -114,7 +114,9 @@ def viscous_acceleration(
     term = arguments.read_viscosity(viscosity)
     velocity = arguments.read_field(velocities, "velocities", count)
     if velocity.shape[1] != dimension:
-        raise SphearError(f"velocities must have the shape ({count}, {dimension}) of the positions, not {velocity.shape}")
+        raise SphearError(
+            f"velocities must have the shape ({count}, {dimension}) of the positions, not {velocity.shape}"
+        )
     return particles.viscous_acceleration(
         velocity,
         arguments.read_property(dynamic_viscosity, "dynamic_viscosity", count),
@@ -161,13 +163,7 @@ def gradient(
     )  # fmt: skip
     chosen = arguments.read_correction(correction)
     field = arguments.read_field(values, "values", len(particles.positions))
-    result = particles.swept(
-        *gradient_sweeps(particles.kernel, chosen, of_differences),
-        {"values": field},
-        fallback,
-        f"correction {chosen.name!r}",
-        lambda: gradient_sweeps(particles.kernel, NoCorrection(), of_differences),
-    )
+    result = particles.gradient(field, chosen, of_differences, fallback)
     return result.reshape(*np.shape(values), particles.positions.shape[1])
 
 

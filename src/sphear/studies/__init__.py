@@ -13,7 +13,9 @@ from sphear.studies.result import Progress, StudyResult, no_progress
 
 PAPERS = {
     "zheng2018": "Zheng, Ma & Shao 2018, Study on SPH viscosity term formulations, Applied Sciences 8(2):249",
-    "basa2009": "Basa, Quinlan & Lastiwka 2009, Robustness and accuracy of SPH formulations for viscous flow, IJNMF 60:1127",
+    "basa2009": (
+        "Basa, Quinlan & Lastiwka 2009, Robustness and accuracy of SPH formulations for viscous flow, IJNMF 60:1127"
+    ),
 }
 
 ITEMS: dict[str, dict[str, str]] = {

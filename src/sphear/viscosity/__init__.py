@@ -53,7 +53,7 @@ __all__ = [
     "Schwaiger",
     "Takeda",
     "TwoPass",
-    "ViscousTerm",
     "Violeau",
+    "ViscousTerm",
     "uncorrected",
 ]

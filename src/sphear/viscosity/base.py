@@ -97,5 +97,3 @@ def uncorrected(term: ViscousTerm) -> tuple[ViscousTerm, Correction]:
     from sphear.viscosity.morris import Morris
 
     return (Morris() if term.own_correction else term), NoCorrection()
-
-

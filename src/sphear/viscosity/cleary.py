@@ -51,5 +51,3 @@ class Cleary(ViscousTerm):
         factor = other.volume * xi / own.density * 4.0 * mu_i * mu_j / (mu_i + mu_j)
         approach = dot(subtract(own.velocity, other.velocity), d) / regularised(r2, self.eta, kernel)
         return scale(factor * approach, correction.gradient(kernel, own.prepared, d, r2))
-
-

@@ -45,5 +45,3 @@ class EspanolRevenga(ViscousTerm):
         difference = subtract(own.velocity, other.velocity)
         along = scale((len(d) + 2) * dilation * dot(difference, d) / r2, d)
         return scale(factor, add(scale(2.0 - dilation, difference), along))
-
-

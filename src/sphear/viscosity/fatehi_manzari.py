@@ -23,7 +23,9 @@ class FatehiManzariMoments(NamedTuple):
 
 @dataclass(frozen=True)
 class FatehiManzariPreparation:
-    """B from B : A = -I, exact for quadratic fields; with g = (dW/dr) / r and d = r_ij the moments are
+    """B from B : A = -I, which makes the term exact for quadratic fields.
+
+    With g = (dW/dr) / r and d = r_ij,
 
     A_mnab = sum V g d_m d_n d_a d_b / r^2 + (sum V g d_m d_n d_k / r^2) Gamma_kl (sum V g d_a d_b d_l).
     """
@@ -103,5 +105,3 @@ class FatehiManzari(LaplacianTerm):
         moments = own.prepared
         along = 2.0 * dot(d, apply(moments.tensor, d)) / r2
         return -kernel.gradient_factor(r2, len(d)) * (along + dot(d, moments.drift))
-
-

@@ -59,5 +59,3 @@ class Monaghan(ViscousTerm):
         linear = strength * (mu if self.receding else approaching)
         factor = other.volume * other.density / mean_density * (linear - self.beta * approaching**2)
         return scale(factor, correction.gradient(kernel, own.prepared, d, r2))
-
-

@@ -75,5 +75,3 @@ class Schwaiger(LaplacianTerm):
         gradient = kernel.gradient(d, r2)
         bracket = dot(d, gradient) / regularised(r2, self.eta, kernel) + dot(own.prepared.drift, gradient)
         return -2.0 * own.prepared.trace * bracket
-
-

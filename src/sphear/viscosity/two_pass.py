@@ -74,5 +74,3 @@ class TwoPass(LaplacianTerm):
     def acceleration_stages(self, kernel: Kernel, correction: Correction) -> tuple[Interaction, ...]:
         """The stress, then its divergence."""
         return ViscousStress(kernel, correction), StressDivergence(kernel, correction)
-
-

@@ -26,8 +26,7 @@ class Violeau(ViscousTerm):
     name = "violeau"
     aliases = ("C", "violeau_issa")
     formula = (
-        "sum_j m_j 2 (d + 2) / (rho_i + rho_j) (mu_i / rho_i + mu_j / rho_j)"
-        " (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij"
+        "sum_j m_j 2 (d + 2) / (rho_i + rho_j) (mu_i / rho_i + mu_j / rho_j) (u_ij . r_ij) / (r_ij^2 + eta^2) grad W_ij"
     )
     source = "Violeau & Issa 2007; Basa, Quinlan & Lastiwka 2009, eq. 33 (model C)"
     radial = True
@@ -42,5 +41,3 @@ class Violeau(ViscousTerm):
         factor = mass * 2.0 * (len(d) + 2) / (own.density + other.density) * kinematic
         approach = dot(subtract(own.velocity, other.velocity), d) / regularised(r2, self.eta, kernel)
         return scale(factor * approach, correction.gradient(kernel, own.prepared, d, r2))
-
-

@@ -21,9 +21,7 @@ READINGS = {"lattice": 0.0, f"jitter {JITTER} dx": JITTER, "jitter 1 dx, as prin
 
 def run(*, quick: bool, progress: Progress) -> StudyResult:
     """The particles on a lattice, with the jitter that reproduces Table 2 and with the printed one."""
-    places = {
-        name: lattice(SIZE, 2, jitter=jitter).positions for name, jitter in READINGS.items()
-    }
+    places = {name: lattice(SIZE, 2, jitter=jitter).positions for name, jitter in READINGS.items()}
     rows = [_spread(name, jitter, places[name]) for name, jitter in READINGS.items()]
     finding = (
         f"the particles are drawn for the printed jitter, whose nearest pair is {rows[2]['nearest']:.2f} dx apart, and"
@@ -46,7 +44,7 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
 def _spread(name: str, jitter: float, positions: Any) -> dict[str, Any]:
     from scipy.spatial import cKDTree
 
-    nearest = cKDTree(positions).query(positions, k=2)[0][:, 1] * SIZE
+    nearest = np.asarray(cKDTree(positions).query(positions, k=2)[0])[:, 1] * SIZE
     return {
         "particles_set": name,
         "particles": SIZE,

@@ -6,7 +6,10 @@ from sphear.studies.result import Agreement, Progress, StudyResult
 from sphear.studies.zheng2018 import convergence, table_1
 from sphear.studies.zheng2018.patch import last
 
-CLAIM = "the errors fall with the number of particles N as N^-k, k about 1 for VISC-01 and VISC-02, 2 for VISC-03 and VISC-04"
+CLAIM = (
+    "the errors fall with the number of particles N as N^-k, with k about 1 for VISC-01 and VISC-02 and 2 for VISC-03"
+    " and VISC-04"
+)
 
 
 def run(*, quick: bool, progress: Progress) -> StudyResult:
@@ -17,8 +20,8 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
     finding = (
         f"Err falls with k = {paper['morris']:.2f}, {paper['gotoh']:.2f}, {paper['schwaiger']:.2f} and"
         f" {paper['oger']:.2f}, of which 1 is the division by the number of samples: the error itself has k ="
-        f" {honest['morris']:.2f}, {honest['gotoh']:.2f}, {honest['schwaiger']:.2f} and {honest['oger']:.2f}, so VISC-01"
-        f" and VISC-02 do not converge and VISC-03 and VISC-04 are of order"
+        f" {honest['morris']:.2f}, {honest['gotoh']:.2f}, {honest['schwaiger']:.2f} and {honest['oger']:.2f}, so"
+        f" VISC-01 and VISC-02 do not converge and VISC-03 and VISC-04 are of order"
         f" {last(table.rows, 'schwaiger', 'order'):.1f} in dx"
     )
     as_claimed = all(abs(paper[n] - k) < 0.35 for n, k in zip(paper, (1, 1, 2, 2), strict=True))

@@ -30,9 +30,7 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
         f" the particles"
     )
     agrees: Agreement = "yes" if min(growth.values()) > 0.85 else "partly"
-    return StudyResult(
-        CLAIM, finding, agrees, timed.rows, timed.tables, {"figure-6": lambda: _figure(timed.rows)}
-    )
+    return StudyResult(CLAIM, finding, agrees, timed.rows, timed.tables, {"figure-6": lambda: _figure(timed.rows)})
 
 
 def _figure(rows: list[dict[str, Any]]) -> Figure:

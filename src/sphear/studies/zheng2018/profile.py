@@ -42,7 +42,8 @@ def deviations(rows: list[dict[str, Any]]) -> dict[str, float]:
     """The mean deviation of each term along the line, relative to the largest exact value."""
     largest = max(row["exact"] for row in rows)
     return {
-        name: float(np.mean([abs(row["computed"] - row["exact"]) for row in rows if row["viscosity"] == name])) / largest
+        name: float(np.mean([abs(row["computed"] - row["exact"]) for row in rows if row["viscosity"] == name]))
+        / largest
         for name in TERMS.values()
     }
 
