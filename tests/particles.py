@@ -27,7 +27,8 @@ def jittered(counts: tuple[int, ...], amplitude: float, seed: int, dx: float = 1
 def interior(positions: Array, margin: float) -> Array:
     """Which particles are at least `margin` from the edges of the box around all."""
     lower, upper = positions.min(axis=0), positions.max(axis=0)
-    return ((positions > lower + margin) & (positions < upper - margin)).all(axis=1)
+    inside: Array = ((positions > lower + margin) & (positions < upper - margin)).all(axis=1)
+    return inside
 
 
 def box(counts: tuple[int, ...], dx: float = 1.0) -> Domain:
@@ -60,4 +61,3 @@ def summed(i: Array, values: Array, count: int) -> Array:
     total = np.zeros((count, *values.shape[1:]))
     np.add.at(total, i, values)
     return total
-

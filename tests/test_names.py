@@ -62,7 +62,7 @@ def test_a_misspelt_alias_is_recognised_too(fruit: Registry[int]) -> None:
 
 
 def test_nothing_is_suggested_where_nothing_is_near(fruit: Registry[int]) -> None:
-    with pytest.raises(SphearError, match="^there is no fruit named 'xyz': fruit is one of apple, pear_tree$"):
+    with pytest.raises(SphearError, match=r"^there is no fruit named 'xyz': fruit is one of apple, pear_tree$"):
         fruit["xyz"]
 
 
@@ -87,9 +87,8 @@ def test_every_registered_thing_is_found_under_each_of_its_names(kind: str) -> N
     ("label", "name"),
     [
         ("A", "takeda"), ("B", "two_pass"), ("C", "violeau"), ("D", "cleary"), ("E", "morris"),
-        ("basa_A", "takeda"), ("basa_B", "two_pass"), ("basa_C", "violeau"), ("basa_D", "cleary"), ("basa_E", "morris"),
         ("VISC-01", "morris"), ("VISC-02", "gotoh"), ("VISC-03", "schwaiger"), ("VISC-04", "oger"),
-        ("visc01", "morris"), ("Visc02", "gotoh"), ("VISC03", "schwaiger"), ("visc04", "oger"),
+        ("Visc 01", "morris"), ("visc_02", "gotoh"),
     ],
 )  # fmt: skip
 def test_the_papers_labels_name_the_viscous_terms(label: str, name: str) -> None:

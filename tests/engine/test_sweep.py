@@ -45,7 +45,7 @@ class Probe(Sum):
         return difference, w + own.mass * self.factor, flux / (1.0 + own.charge)
 
 
-def fields_of(count: int, dimension: int) -> dict[str, Array]:
+def fields_of(count: int, dimension: int) -> dict[str, Any]:
     generator = np.random.default_rng(7)
     fields = {"mass": generator.random(count) + 0.5, "charge": generator.random(count)}
     return fields | {"unused": generator.random((count, 2)), "velocity": generator.random((count, dimension)) - 0.5}
@@ -58,7 +58,7 @@ def wendland_c2(r: Array, dimension: int) -> Array:
     return {2: 7 / (4 * np.pi * H**2), 3: 21 / (16 * np.pi * H**3)}[dimension] * (1 - q) ** 4 * (1 + 4 * q)
 
 
-def expected(positions: Array, domain: Domain | None, fields: dict[str, Array], factor: float) -> Array:
+def expected(positions: Array, domain: Domain | None, fields: dict[str, Any], factor: float) -> Array:
     count, dimension = positions.shape
     i, j, d = all_pairs(positions, SUPPORT, domain)
     mass, charge, velocity = fields["mass"], fields["charge"], fields["velocity"]
@@ -126,7 +126,9 @@ def test_every_number_of_neighbours(dtype: str) -> None:
     theirs = expected(positions, None, fields, 1.0)
     found = sweep(Probe(WendlandC2(H), 1.0), Neighbours(positions, SUPPORT), dtype=dtype, **fields)
     # the coordinates grow to a hundred, of which single precision has five digits behind the point
-    np.testing.assert_allclose(found, theirs, rtol=0, atol=(1e-12 if dtype == "float64" else 2e-4) * np.abs(theirs).max())
+    np.testing.assert_allclose(
+        found, theirs, rtol=0, atol=(1e-12 if dtype == "float64" else 2e-4) * np.abs(theirs).max()
+    )
 
 
 def test_a_lone_particle_has_the_result_of_an_empty_sum() -> None:

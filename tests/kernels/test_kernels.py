@@ -64,7 +64,8 @@ def value(kernel: Kernel, r: Any, dimension: int) -> Any:
 @every_kernel
 def test_the_integral_is_one(name: str, dimension: int) -> None:
     kernel = KERNELS[name](1.0)
-    assert radial_integral(lambda r: value(kernel, r, dimension), dimension, kernel.support) == pytest.approx(1, rel=1e-12)
+    total = radial_integral(lambda r: value(kernel, r, dimension), dimension, kernel.support)
+    assert total == pytest.approx(1.0, rel=1e-12)
 
 
 @every_dimension
@@ -175,11 +176,13 @@ def test_gradient_and_hessian_are_derivatives_in_space(name: str, direction: tup
     def gradient(x: Any) -> Any:
         return np.array(kernel.gradient(tuple(x), float(x @ x)))
 
-    axes = np.eye(dimension) * step
-    values = [(value(kernel, np.linalg.norm(d + a), dimension), value(kernel, np.linalg.norm(d - a), dimension)) for a in axes]
-    np.testing.assert_allclose(gradient(d), [(a - b) / (2 * step) for a, b in values], rtol=1e-6, atol=1e-8)
+    def along_each_axis(f: Function) -> Any:
+        return [(f(d + step * axis) - f(d - step * axis)) / (2 * step) for axis in np.eye(dimension)]
+
+    slopes = along_each_axis(lambda x: value(kernel, np.linalg.norm(x), dimension))
+    np.testing.assert_allclose(gradient(d), slopes, rtol=1e-6, atol=1e-8)
     hessian = np.array(kernel.hessian(tuple(d), float(d @ d)))
-    np.testing.assert_allclose(hessian, [(gradient(d + a) - gradient(d - a)) / (2 * step) for a in axes], rtol=1e-5, atol=1e-7)
+    np.testing.assert_allclose(hessian, along_each_axis(gradient), rtol=1e-5, atol=1e-7)
     np.testing.assert_allclose(hessian, hessian.T)
 
 

@@ -69,7 +69,7 @@ def conservation(
             return particles.viscous_acceleration(u, ones, ones, term, chosen)
 
         random = np.random.default_rng(seed)
-        velocities: list[Array] = [random.standard_normal(grid.positions.shape) for _ in range(trials)]
+        velocities: list[Array] = [random.standard_normal((len(grid.positions), 2)) for _ in range(trials)]
         if is_linear(acceleration, velocities[0], velocities[1]):
             velocities.append(_most_gaining(acceleration, grid.positions.shape))
         for u in velocities:

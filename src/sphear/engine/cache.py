@@ -12,9 +12,11 @@ import importlib.util
 import os
 import sys
 import tempfile
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import llvmlite
 import numba
@@ -70,3 +72,14 @@ def generated_module(text: str) -> ModuleType:
     sys.modules[name] = module  # Numba finds the module of cached code by its name
     spec.loader.exec_module(module)
     return module
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """A function of this package, compiled; machine code is kept beside its source, or in the user's cache folder.
+
+    Where neither can be written to, as in a read-only installation without a home, it is compiled in every process.
+    """
+    try:
+        return numba.njit(nogil=True, cache=True)(function)
+    except RuntimeError:  # what Numba raises when it finds no folder
+        return numba.njit(nogil=True)(function)

@@ -9,12 +9,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from sphear.engine.cache import compiled
 
 Array = np.ndarray[Any, Any]
 
 
-@njit(nogil=True, cache=True)
+@compiled
 def solve_normal_equations(moments, index, right, quality, solution):  # type: ignore[no-untyped-def]
     """Solve M x = right with M[a, b] = moments[index[a, b]] for each row of moments, by Cholesky's method.
 

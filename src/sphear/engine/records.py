@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 
-from sphear.engine.flags import OPTIONS
+from sphear.engine.cache import compiled
 from sphear.engine.lanes import INT64, Lanes, shuffle
 
 CHUNK = 4  # columns that are loaded and transposed together
@@ -71,7 +71,7 @@ def _transposed(builder: Any, rows: list[Any]) -> list[Any]:
     return parts[0]
 
 
-@njit(**OPTIONS)
+@compiled
 def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyped-def]  # pragma: no cover
     for entry in range(begin, end):
         for k in range(values.shape[1]):

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from sphear.engine.cache import compiled
 
 Array = np.ndarray[Any, Any]
 
@@ -33,7 +34,7 @@ class CellSort:
     rows: Array
 
 
-@njit(nogil=True, cache=True)
+@compiled
 def _bounds(positions, lower, upper):  # type: ignore[no-untyped-def]
     for axis in range(positions.shape[1]):
         low, high = np.inf, -np.inf
@@ -42,7 +43,7 @@ def _bounds(positions, lower, upper):  # type: ignore[no-untyped-def]
         lower[axis], upper[axis] = low, high
 
 
-@njit(nogil=True, cache=True)
+@compiled
 def _count(positions, lower, inverse_size, strides, offset, cell, count):  # type: ignore[no-untyped-def]
     for entry in range(positions.shape[0]):
         number = offset
@@ -52,7 +53,7 @@ def _count(positions, lower, inverse_size, strides, offset, cell, count):  # typ
         count[number + 1] += 1
 
 
-@njit(nogil=True, cache=True)
+@compiled
 def _place(positions, cell, following, coordinates, order, sorted_cell):  # type: ignore[no-untyped-def]
     for entry in range(positions.shape[0]):
         place = following[cell[entry]]
@@ -71,8 +72,9 @@ def cell_sort(positions: Array, support: float) -> CellSort:
         _bounds(positions, lower, upper)
     extent = upper - lower
     size = support / REACH * (1 + 1e-9)
-    while np.prod(extent / size + 2 * REACH + 1) > 8 * entries + 1000:
-        size *= 1.5
+    with np.errstate(over="ignore"):
+        while np.prod(extent / size + 2 * REACH + 1) > 8 * entries + 1000:
+            size *= 1.5
     # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
     shape = (extent / size).astype(np.int64) + 1 + 2 * REACH
     strides = np.ones(dimension, np.int64)  # the first axis runs fastest

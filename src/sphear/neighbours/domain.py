@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,8 +28,17 @@ class Domain:
     periodic: tuple[bool, ...] | bool = True
 
     def __post_init__(self) -> None:
-        lower, upper = (tuple(float(x) for x in corner) for corner in (self.lower, self.upper))
-        flags = (self.periodic,) * len(lower) if isinstance(self.periodic, bool) else tuple(self.periodic)
+        try:
+            lower, upper = (tuple(float(x) for x in corner) for corner in (self.lower, self.upper))
+        except (TypeError, ValueError):
+            raise SphearError(
+                f"a domain needs a number for each axis of its corners, not {self.lower!r} and {self.upper!r}"
+            ) from None
+        flags = (
+            tuple(map(bool, self.periodic))
+            if isinstance(self.periodic, Iterable)
+            else (bool(self.periodic),) * len(lower)
+        )
         if not len(lower) == len(upper) == len(flags) or not 1 <= len(lower) <= 3:
             raise SphearError(
                 f"a domain needs one lower bound, upper bound and periodic flag for each of 1 to 3 axes, "

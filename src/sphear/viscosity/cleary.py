@@ -18,7 +18,7 @@ class Cleary(ViscousTerm):
 
     With constant mu and rho and xi = d + 2, its analytic value, this is Violeau's term. Cleary calibrated
     xi = 4.96333 (near the 3-D value), Basa et al. 4.24 (6 % more viscosity than the analytic 4 of 2-D); both are
-    there by name, `cleary_4.96333` and `cleary_4.24`. The limit is 4 / (d + 2) ... as Violeau's for xi = d + 2.
+    there by name, `cleary_4.96333` and `cleary_4.24`.
 
     Args:
         xi: the factor; None takes d + 2.

@@ -14,13 +14,11 @@ from sphear.viscosity.base import LaplacianTerm
 
 @dataclass(frozen=True, repr=False)
 class Gotoh(LaplacianTerm):
-    """lap u_i = c sum_j V_j (u_j - u_i) (W'' - W'/r), with c = 1 / 2 in 2-D and d (d-1)... see `factor`.
+    """lap u_i = 2 / (d + 2) sum_j V_j (u_j - u_i) (W'' - W'/r).
 
-    Eq. 16 as printed has u_ij = u_i - u_j and no factor: on a lattice in 2-D its limit is -2 lap u. Table 1 of that
-    paper is reproduced by the form above, with (u_j - u_i) / 2. Expanding u_j to second order and integrating by
-    parts, int (W'' - W'/r) r^2 dV = d (d + 2) in d dimensions, and so the Laplacian needs the factor 2 / (d + 2),
-    which is 1 / 2 in 2-D and 2 / 5 in 3-D. In one dimension W'/r does not belong to a Laplacian, but the identity
-    holds all the same with the factor 2 / 3.
+    Eq. 16 as printed has u_ij = u_i - u_j and no factor: in 2-D its limit is -2 lap u, and Table 1 of that paper is
+    reproduced by the form above, with (u_j - u_i) / 2. For d dimensions expand u_j to second order: by parts,
+    int (W'' - W'/r) r^2 dV = d (d + 2), so that the factor is 2 / (d + 2), which is 1 / 2 in 2-D and 2 / 5 in 3-D.
 
     Args:
         printed: the form as printed, to be compared with.

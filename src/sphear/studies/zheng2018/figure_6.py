@@ -42,7 +42,7 @@ def _figure(rows: list[dict[str, Any]]) -> Figure:
 
     names = list(TERMS.values())
     panels = [
-        Convergence({name: curve(name, key) for name in names}, label, (2,))
+        Convergence({name: curve(name, key) for name in names}, label, (2,) if key == "published" else ())
         for key, label in (("published", "published, s"), ("computed", "computed, s"))
     ]
     return convergence_panels(panels, "particles a side", "Time of one Laplacian (Zheng, Ma & Shao 2018, figure 6)")
