@@ -26,7 +26,7 @@ from sphear.cases.patch_test import PatchTest
 from sphear.corrections import NoCorrection
 from sphear.operators import Particles
 from sphear.viscosity import VISCOSITY
-from sphear.viscosity.card import page
+from sphear.viscosity.page import page
 
 TARGET = Path(__file__).parents[1] / "src" / "sphear" / "viscosity" / "measured.json"
 CARDS = Path(__file__).parents[1] / "docs" / "viscosity.md"

@@ -12,7 +12,8 @@ from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from sphear.cases.expressions import BLOCK, COORDINATES, FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression, Node
+from sphear.cases.expressions import BLOCK, COORDINATES, FUNCTIONS, MAX_DEPTH, MAX_LENGTH, Expression
+from sphear.cases.nodes import Node
 from sphear.errors import SphearError
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -38,7 +38,7 @@ def by_tree(positions: Array, support: float, domain: Domain | None = None) -> P
     steps = [range(-reach, reach + 1) if axis in axes else range(1) for axis in range(positions.shape[1])]
     # the particles themselves first
     images = np.concatenate([positions + np.multiply(shift, periods) for shift in sorted(product(*steps), key=any)])
-    near = cKDTree(images).query_ball_point(positions, support * (1 - 1e-12))
+    near: Any = cKDTree(images).query_ball_point(positions, support * (1 - 1e-12))
     return sorted((i, j % len(positions)) for i, found in enumerate(near) for j in found if j != i)
 
 

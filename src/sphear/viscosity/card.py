@@ -95,35 +95,3 @@ def card(term: ViscousTerm | None, name: str | None = None) -> Card:
         correction="its own; takes no other" if term.own_correction else "none, shepard, bonet_lok, renormalised",
         properties=measured().get(known, {}) if known else {},
     )
-
-
-def page() -> str:
-    """The cards of all terms as a page of the documentation, docs/viscosity.md."""
-    from sphear.viscosity import VISCOSITY
-
-    facts = measured()
-    table = ["| term | order, lattice | order, jittered | linear momentum | angular momentum | only dissipates | cost |"]
-    table.append("|---|---|---|---|---|---|---|")
-    for name in VISCOSITY:
-        one = facts[name]
-        held = ["yes" if one[key] else "no" for key in ("linear_momentum", "angular_momentum", "dissipative")]
-        orders = [f"{one[key]:+.1f}" for key in ("order_lattice", "order_jittered")]
-        table.append(f"| `{name}` | {' | '.join((*orders, *held))} | {one['cost']:.1f} |")
-    cards = [f"## {name}\n\n```\n{card(None, name).text()}\n```\n" for name in VISCOSITY]
-    return "\n".join((_INTRODUCTION, *table, "", *cards))
-
-
-_INTRODUCTION = """# Viscous terms
-
-What every term computes, where it comes from, and what was measured of it (`python validation/measure_cards.py` writes
-this page; a test compares it). All without a correction and with equal volumes, in two dimensions:
-
-- **order**: of the L1 error of the Laplacian of sin(2 pi x) sin(2 pi y) in dx, with h fixed in dx (cubic spline, support
-  3.14 dx), on a lattice from 160 to 320 particles a side, and on particles jittered by 0.3 dx from 80 to 160, mean of 8
-  seeds. Radial terms act on the velocity whose stream function the field is. An order about 0 is an error that stays
-  however many particles are taken; about -1, one that doubles when dx is halved. On a lattice, errors that stay are
-  small for some terms (0.1 to 2 %).
-- **linear and angular momentum**: zero change to rounding over isolated clusters of jittered particles.
-- **only dissipates**: no velocity gains energy, the eigenvector that would gain most included.
-- **cost**: of one viscous acceleration, preparation included, relative to `morris`.
-"""

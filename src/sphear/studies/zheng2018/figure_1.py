@@ -28,8 +28,8 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
     factors = {jitter: _error(jitter) / published for jitter in (JITTER, 1.0)}
     finding = (
         f"with the printed jitter of 1 dx, where the nearest pair is {rows[2]['nearest']:.2f} dx apart, the error of"
-        f" VISC-03 is {factors[1.0]:.1f} times that of Table 2; with {JITTER} dx, where it is {rows[1]['nearest']:.2f} dx,"
-        f" {factors[JITTER]:.2f} times"
+        f" VISC-03 is {factors[1.0]:.1f} times that of Table 2; with {JITTER} dx, where it is"
+        f" {rows[1]['nearest']:.2f} dx, {factors[JITTER]:.2f} times"
     )
     printed, reduced = (abs(factors[jitter] - 1) < 0.2 for jitter in (1.0, JITTER))
     agrees: Agreement = "yes" if printed else "partly" if reduced else "no"
