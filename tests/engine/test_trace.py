@@ -39,7 +39,7 @@ def compute(lines: Iterable[str], outputs: Iterable[Any], inputs: dict[str, floa
     """Run straight-line code and read its outputs, which are symbols, names or numbers."""
     known: dict[str, Any] = {**FUNCTIONS, **inputs}
     exec("\n".join(lines), known)
-    return [eval(x.name if isinstance(x, Symbol) else str(x), known) for x in outputs]
+    return [eval(str(x), known) for x in outputs]
 
 
 @pytest.fixture

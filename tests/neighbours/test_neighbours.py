@@ -70,7 +70,7 @@ def test_pairs_in_periodic_boxes_are_those_of_a_tree_of_images(
 def test_chunks_cover_every_row_once(threads: int) -> None:
     positions = jittered((9, 9), 0.5, seed=0)
     neighbours = Neighbours(positions, SUPPORT, threads=threads)
-    assert len(neighbours.chunks) == threads
+    assert len(neighbours.chunks) % threads == 0
     assert sorted(i for chunk in neighbours.chunks for i in neighbours.particles(chunk)) == list(range(81))
     pairs = by_tree(positions, SUPPORT)
     assert listed(neighbours) == pairs

@@ -9,6 +9,7 @@ from itertools import count
 from types import SimpleNamespace
 from typing import Any, Protocol, runtime_checkable
 
+from sphear.algebra import scale
 from sphear.engine.structure import fill, kind, leaves, with_symbols
 from sphear.engine.trace import Symbol, Trace
 
@@ -36,7 +37,8 @@ class TracedFormula:
     """The code of one interaction for one dimension and one set of fields.
 
     `columns` are the fields and components that a neighbour's record holds, (field, component), after the position;
-    those of `other` come first. `own_names` and `own_columns` are the used columns of the particle's own array.
+    those of `other` come first. `reverse_outputs` are what the pair contributes to the sum of `other`, where both sides
+    of it are wanted. `own_names` and `own_columns` are the used columns of the particle's own array.
     """
 
     parameter_count: int
@@ -46,6 +48,7 @@ class TracedFormula:
     own_columns: tuple[int, ...]
     pair_lines: tuple[str, ...]
     pair_outputs: tuple[str, ...]
+    reverse_outputs: tuple[str, ...]
     finish_lines: tuple[str, ...]
     finish_outputs: tuple[str, ...]
     result: Any  # a structure of the form of the result
@@ -53,7 +56,12 @@ class TracedFormula:
 
 @cache
 def _traced(
-    key: Any, holder: _Unhashed, dimension: int, shared: tuple[Shape, ...], own_only: tuple[Shape, ...]
+    key: Any,
+    holder: _Unhashed,
+    dimension: int,
+    shared: tuple[Shape, ...],
+    own_only: tuple[Shape, ...],
+    both_sides: bool,
 ) -> TracedFormula:
     trace = Trace()
     numbers = count()
@@ -67,10 +75,12 @@ def _traced(
     d = tuple(trace.input(f"d{axis}") for axis in range(dimension))
     known = {"prepared": None, "dimension": dimension}
     own = SimpleNamespace(**(known | values("own", shared) | values("coefficient", own_only)))
-    other = SimpleNamespace(**values("other", shared), dimension=dimension)
-    total = formula.pair(own, other, d, trace.input("r2"))
+    other = SimpleNamespace(**(known | values("other", shared)))
+    r2 = trace.input("r2")
+    total = formula.pair(own, other, d, r2)
     pair_outputs = list(leaves(total))
-    pair_lines, pair_inputs = trace.code(pair_outputs)
+    reverse_outputs = list(leaves(formula.pair(other, own, scale(-1.0, d), r2))) if both_sides else []
+    pair_lines, pair_inputs = trace.code(pair_outputs + reverse_outputs)
 
     sums = fill(total, (trace.input(f"total{k}") for k in count()))
     result = formula.finish(own, sums)
@@ -92,6 +102,7 @@ def _traced(
         own_columns=tuple(k for k, name in enumerate(own_names) if name in used),
         pair_lines=tuple(pair_lines),
         pair_outputs=tuple(_name(x) for x in pair_outputs),
+        reverse_outputs=tuple(_name(x) for x in reverse_outputs),
         finish_lines=tuple(finish_lines),
         finish_outputs=tuple(_name(x) for x in finish_outputs),
         result=fill(result, iter([0.0] * len(finish_outputs))),
@@ -120,11 +131,16 @@ class _Unhashed:
 
 
 def _name(value: Any) -> str:
-    return value.name if isinstance(value, Symbol) else repr(float(value))
+    return str(value) if isinstance(value, Symbol) else repr(float(value))
 
 
 def traced(
-    interaction: Interaction, dimension: int, shared: tuple[Shape, ...], own_only: tuple[Shape, ...] = ()
+    interaction: Interaction,
+    dimension: int,
+    shared: tuple[Shape, ...],
+    own_only: tuple[Shape, ...] = (),
+    *,
+    both_sides: bool = False,
 ) -> TracedFormula:
     """The traced code of an interaction; traced once for each kind of interaction, dimension and fields.
 
@@ -133,8 +149,9 @@ def traced(
         dimension: 1, 2 or 3.
         shared: the fields that both particles of a pair have.
         own_only: the fields (coefficients prepared by an earlier sweep) of the particle summed for.
+        both_sides: also what the pair contributes to its other particle; not with fields of one side only.
     """
-    return _traced(kind(interaction), _Unhashed(interaction), dimension, shared, own_only)
+    return _traced(kind(interaction), _Unhashed(interaction), dimension, shared, own_only, both_sides)
 
 
 class Sum:

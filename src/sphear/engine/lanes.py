@@ -89,6 +89,19 @@ for _operation, _instruction in (("add", "fadd"), ("sub", "fsub"), ("mul", "fmul
     _binary(getattr(operator, _operation), _instruction)
 
 
+@infer_global(operator.neg)
+class _Negation(AbstractTemplate):
+    key = operator.neg
+
+    def generic(self, args: Any, kws: Any) -> Any:
+        return signature(args[0], args[0]) if isinstance(args[0], Lanes) else None
+
+
+@lower_builtin(operator.neg, Lanes)
+def _negate(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    return builder.fneg(args[0], flags=FASTMATH)
+
+
 def _on_lanes_or_floats(compute: Callable[..., Any]) -> Any:
     """An intrinsic of 1 to 4 numbers that is computed in lanes if any of them is, else on plain floats."""
 

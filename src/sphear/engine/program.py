@@ -37,8 +37,57 @@ def sweep(parameters, far, records, own, out, target, entry, first, neighbour, b
 '''
 
 
+_BOTH_SIDES = '''
+"""{title}, each pair once"""
+
+from numba import njit
+from sphear.engine.lanes import exp, first_lanes, lane_zeros, lanes_sum, positive_part, sqrt, where_less
+from sphear.engine.records import record_adder, record_loader
+
+load = record_loader({width}, {loaded})
+add = record_adder({width}, {sums})
+zeros = lane_zeros({dtype!r}, {width})
+
+
+@njit({options})
+def sweep(parameters, far, records, sums, entry, first, neighbour, begin, end, origin):
+    """Add to sums[i] and sums[j] what each listed pair (i, j) contributes to either."""
+    {parameters}
+    for row in range(begin, end):
+        i = entry[row]
+        {own}
+        {zeros}
+        stop = first[row - origin + 1]
+        for k in range(first[row - origin], stop, {width}):
+            {other}= load(records, neighbour, k)
+            {differences}
+            r2 = {square}
+            {pair}
+            {accumulate}
+            add(sums, neighbour, k, ({reverse}))
+        {own_sums}
+
+
+@njit({options})
+def finish(parameters, records, sums, out, target, entry, begin, end, origin):
+    """out[target[row - origin]] = finish(sums[i]), for the rows begin ... end of a chunk."""
+    {parameters}
+    for row in range(begin, end):
+        i = entry[row]
+        {own}
+        {total}
+        {finish}
+        {store}
+'''
+
+
 def _block(lines: list[str], indent: int) -> str:
     return ("\n" + " " * indent).join(lines) if lines else "pass"
+
+
+def _in_lanes(outputs: tuple[str, ...]) -> list[str]:
+    """Outputs as lanes, also those that are the same for every neighbour."""
+    return [f"{x} + zeros()" for x in outputs]
 
 
 def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -> str:
@@ -57,7 +106,11 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
         for name, column in zip(formula.own_names, formula.own_columns, strict=True)
     ]
     sums = range(len(formula.pair_outputs))
-    return _SWEEP.format(
+    both = bool(formula.reverse_outputs)
+    return (_BOTH_SIDES if both else _SWEEP).format(
+        sums=len(sums),
+        reverse="".join(f"{x}, " for x in _in_lanes(formula.reverse_outputs)),
+        own_sums=_block([f"sums[i, {k}] += lanes_sum(sum{k})" for k in sums], 8),
         title=title,
         width=width,
         loaded=len(others),
@@ -73,7 +126,7 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
         square=" + ".join(f"d{a} * d{a}" for a in axes),
         pair=_block(list(formula.pair_lines), 12),
         accumulate=_block([f"sum{k} = sum{k} + {x}" for k, x in enumerate(formula.pair_outputs)], 12),
-        total=_block([f"total{k} = lanes_sum(sum{k})" for k in sums], 8),
+        total=_block([f"total{k} = sums[i, {k}]" if both else f"total{k} = lanes_sum(sum{k})" for k in sums], 8),
         finish=_block(list(formula.finish_lines), 8),
         store=_block([f"out[target[row - origin], {k}] = {x}" for k, x in enumerate(formula.finish_outputs)], 8),
     )

@@ -10,6 +10,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from sphear.engine.cache import compiled
+from sphear.engine.flags import FASTMATH
 from sphear.engine.lanes import INT64, Lanes, shuffle
 
 CHUNK = 4  # columns that are loaded and transposed together
@@ -43,6 +44,45 @@ def record_loader(width: int, columns: int) -> Any:
         return types.UniTuple(lanes, columns)(records, neighbour, types.int64), codegen
 
     return load
+
+
+def record_adder(width: int, columns: int) -> Any:
+    """A compiled function (sums, neighbour, k, lanes) that adds `columns` lanes to the neighbours' rows of `sums`.
+
+    The way back of `record_loader`: columns are transposed into one vector of 4 numbers a neighbour. The neighbours of
+    one particle are all different, so no two lanes add to the same row.
+    """
+
+    @intrinsic
+    def add(typingctx, sums, neighbour, k, values):  # type: ignore[no-untyped-def]
+        def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+            table = context.make_array(sig.args[0])(context, builder, args[0])
+            listed = context.make_array(sig.args[1])(context, builder, args[1])
+            base = builder.gep(listed.data, [args[2]])
+            lanes = [builder.extract_value(args[3], column) for column in range(columns)]
+            stride = ir.Constant(INT64, -(-columns // CHUNK) * CHUNK)
+            for begin in range(0, columns, CHUNK):
+                chunk = lanes[begin : begin + CHUNK]
+                chunk += [ir.Constant(chunk[0].type, None)] * (CHUNK - len(chunk))
+                for lane in range(width):
+                    group = lane - lane % CHUNK
+                    if lane == group:
+                        picked = list(range(group, group + CHUNK))
+                        rows = _transposed(builder, [shuffle(builder, x, x, picked) for x in chunk])
+                    number = builder.load(builder.gep(base, [ir.Constant(INT64, lane)]))
+                    row = builder.gep(table.data, [builder.mul(builder.zext(number, INT64), stride)])
+                    address = builder.bitcast(
+                        builder.gep(row, [ir.Constant(INT64, begin)]), rows[lane - group].type.as_pointer()
+                    )
+                    before = builder.load(address)
+                    after = builder.fadd(before, rows[lane - group], flags=FASTMATH)
+                    stored = builder.store(after, address)
+                    before.align = stored.align = CHUNK * (8 if sums.dtype == types.float64 else 4)
+            return context.get_dummy_value()
+
+        return types.void(sums, neighbour, types.int64, values), codegen
+
+    return add
 
 
 def _load(builder: Any, row: Any, begin: int, scalar: Any, size: int) -> Any:

@@ -55,6 +55,26 @@ def between(typingctx, value, low, high, count):  # type: ignore[no-untyped-def]
 
 
 @intrinsic
+def once_only(typingctx, image, j, i):  # type: ignore[no-untyped-def]
+    """A bit for each of the candidates j ... j + 7, set for those after i and for periodic images.
+
+    A pair of particles is then listed from one side only, a pair with an image from the side of the particle.
+    """
+
+    def codegen(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+        array = context.make_array(sig.args[0])(context, builder, args[0])
+        bytes_ = builder.load(
+            builder.bitcast(builder.gep(array.data, [args[1]]), ir.VectorType(INT8, WIDTH).as_pointer()), align=1
+        )
+        is_image = builder.icmp_unsigned("!=", bytes_, ir.Constant(bytes_.type, None))
+        numbers = ir.Constant(ir.VectorType(INT64, WIDTH), list(range(WIDTH)))
+        after = builder.icmp_signed(">", numbers, splat(builder, builder.sub(args[2], args[1]), WIDTH))
+        return builder.zext(builder.bitcast(builder.or_(is_image, after), ir.IntType(WIDTH)), INT64)
+
+    return types.int64(image, types.int64, types.int64), codegen
+
+
+@intrinsic
 def population(typingctx, bits):  # type: ignore[no-untyped-def]
     """The number of bits that are set."""
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from itertools import groupby
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,8 +28,8 @@ FAR = 1.001  # supports: where lanes without a neighbour are put
 
 
 @cache
-def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) -> Any:
-    return generated_module(sweep_text(formula, title, dimension, dtype)).sweep
+def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) -> ModuleType:
+    return generated_module(sweep_text(formula, title, dimension, dtype))
 
 
 def shape_of(values: Array) -> Any:
@@ -45,6 +46,7 @@ class Sweep:
         neighbours: the pairs.
         fields: arrays (N,) or (N, k) by the names under which the interaction knows them.
         own: structure of the prepared coefficients, by name; their arrays are given chunk by chunk.
+        each_pair_once: compute both sides of a pair together; not with prepared coefficients, which are of one side.
         dtype: "float64" or "float32": what the sums are computed in.
     """
 
@@ -52,13 +54,14 @@ class Sweep:
     neighbours: Neighbours
     fields: Fields
     own: tuple[Shape, ...] = ()
+    each_pair_once: bool = False
     dtype: str = "float64"
 
     def __post_init__(self) -> None:
         shared = tuple((name, shape_of(values)) for name, values in self.fields.items())
         dimension = self.neighbours.dimension
-        self.formula = traced(self.interaction, dimension, shared, self.own)
-        self.function = _compiled(self.formula, type(self.interaction).__name__, dimension, self.dtype)
+        self.formula = traced(self.interaction, dimension, shared, self.own, both_sides=self.each_pair_once)
+        self.module = _compiled(self.formula, type(self.interaction).__name__, dimension, self.dtype)
         self.parameters = np.array(parameters(self.interaction) or [0.0], self.dtype)
         self.records = self._packed()
 
@@ -91,7 +94,7 @@ class Sweep:
         """
         if own is None:
             own = np.empty((0, 0), self.dtype)
-        self.function(
+        self.module.sweep(
             self.parameters, FAR * self.neighbours.support, self.records, own, out, target, self.neighbours.entry,
             chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
         )  # fmt: skip
@@ -99,6 +102,9 @@ class Sweep:
     def everywhere(self) -> Array:
         """The result of all particles, (N, outputs), in their own order."""
         out = np.empty((self.neighbours.count, self.outputs), self.dtype)
+        if self.each_pair_once:
+            self._once(out)
+            return out
 
         def job(chunk: Chunk) -> None:
             self.over(chunk, out, self.neighbours.particles(chunk))
@@ -106,10 +112,43 @@ class Sweep:
         on_threads(job, self.neighbours.chunks, self.neighbours.threads)
         return out
 
+    def _once(self, out: Array) -> None:
+        """Add up both sides of all pairs, then finish each particle."""
+        neighbours, chunks = self.neighbours, self.neighbours.chunks_once
+        sums = empty_records(len(neighbours.source), len(self.formula.pair_outputs), self.dtype)
+        sums.fill(0.0)
 
-def sweep(interaction: Interaction, neighbours: Neighbours, *, dtype: str = "float64", **fields: Array) -> Array:
+        def add(chunk: Chunk) -> None:
+            self.module.sweep(
+                self.parameters, FAR * neighbours.support, self.records, sums, neighbours.entry, chunk.first,
+                chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
+            )  # fmt: skip
+
+        def finish(chunk: Chunk) -> None:
+            self.module.finish(
+                self.parameters, self.records, sums, out, neighbours.particles(chunk), neighbours.entry, chunk.begin,
+                chunk.end, chunk.begin,
+            )  # fmt: skip
+
+        threads = neighbours.threads
+        if threads > 1 and neighbours.alternating:
+            on_threads(add, chunks[::2], threads)
+            on_threads(add, chunks[1::2], threads)
+        else:
+            on_threads(add, chunks, 1)
+        on_threads(finish, chunks, threads)
+
+
+def sweep(
+    interaction: Interaction,
+    neighbours: Neighbours,
+    *,
+    each_pair_once: bool = False,
+    dtype: str = "float64",
+    **fields: Array,
+) -> Array:
     """The interaction summed over the neighbours of every particle, (N, numbers of its result)."""
-    return Sweep(interaction, neighbours, fields, dtype=dtype).everywhere()
+    return Sweep(interaction, neighbours, fields, each_pair_once=each_pair_once, dtype=dtype).everywhere()
 
 
 def width(structure: Any) -> int:

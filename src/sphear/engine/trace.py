@@ -9,50 +9,70 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-Operand = "Symbol | float"
-
 
 class Symbol:
-    """A number that is known only at run time: an input, or the result of a recorded operation."""
+    """A number that is known only at run time: an input, or the result of a recorded operation, or its negative.
 
-    __slots__ = ("name", "trace")
+    The sign is kept beside the name, so that what a pair does to its one particle and to the other, often equal and
+    opposite, is recorded once.
+    """
 
-    def __init__(self, trace: Trace, name: str) -> None:
+    __slots__ = ("name", "negative", "trace")
+
+    def __init__(self, trace: Trace, name: str, negative: bool = False) -> None:
         self.trace = trace
         self.name = name
+        self.negative = negative
+
+    def __str__(self) -> str:
+        return f"-{self.name}" if self.negative else self.name
 
     def traced_call(self, function: str, arguments: Sequence[Any]) -> Symbol:
         """The symbol of function(*arguments); `sphear.algebra` calls this."""
         return self.trace.record(function, arguments)
 
+    def __neg__(self) -> Symbol:
+        return Symbol(self.trace, self.name, not self.negative)
+
     def __add__(self, other: Any) -> Any:
-        return self if _is(other, 0) else self.trace.record("+", (self, other))
+        if _is(other, 0):
+            return self
+        (a, minus_a), (b, minus_b) = _signed(self), _signed(other)
+        total = self.trace.record("+", (a, b)) if minus_a == minus_b else self.trace.difference(a, b)
+        return -total if minus_a else total
 
     __radd__ = __add__
 
     def __sub__(self, other: Any) -> Any:
-        return self if _is(other, 0) else self.trace.record("-", (self, other))
+        return self + (-other)
 
     def __rsub__(self, other: Any) -> Any:
-        return self.trace.record("-", (other, self))
+        return (-self) + other
 
     def __mul__(self, other: Any) -> Any:
         if _is(other, 0):
             return 0.0
-        return self if _is(other, 1) else self.trace.record("*", (self, other))
+        if _is(other, 1):
+            return self
+        (a, minus_a), (b, minus_b) = _signed(self), _signed(other)
+        product = a if _is(b, 1) else self.trace.record("*", (a, b))
+        return -product if minus_a != minus_b else product
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Any:
-        if isinstance(other, Symbol):
-            return self.trace.record("/", (self, other))
-        return self * (1.0 / other)
+        if not isinstance(other, Symbol):
+            return self * (1.0 / other)
+        (a, minus_a), (b, minus_b) = _signed(self), _signed(other)
+        quotient = self.trace.record("/", (a, b))
+        return -quotient if minus_a != minus_b else quotient
 
     def __rtruediv__(self, other: Any) -> Any:
-        return 0.0 if _is(other, 0) else self.trace.record("/", (other, self))
-
-    def __neg__(self) -> Any:
-        return self.trace.record("-", (0.0, self))
+        if _is(other, 0):
+            return 0.0
+        (a, minus_a), (b, minus_b) = _signed(other), _signed(self)
+        quotient = self.trace.record("/", (a, b))
+        return -quotient if minus_a != minus_b else quotient
 
     def __pow__(self, power: int) -> Any:
         if not isinstance(power, int):
@@ -78,6 +98,13 @@ def _is(value: Any, number: int) -> bool:
     return not isinstance(value, Symbol) and value == number
 
 
+def _signed(value: Any) -> tuple[Any, bool]:
+    """The value without its sign, and whether it had one."""
+    if isinstance(value, Symbol):
+        return Symbol(value.trace, value.name), value.negative
+    return abs(value), value < 0
+
+
 class Trace:
     """The recorded operations of one formula, in order."""
 
@@ -91,7 +118,7 @@ class Trace:
 
     def record(self, operation: str, operands: Iterable[Any]) -> Symbol:
         """The symbol of an operation, the same one for the same operation on the same operands."""
-        names = [x.name if isinstance(x, Symbol) else repr(float(x)) for x in operands]
+        names = [str(x) if isinstance(x, Symbol) else repr(float(x)) for x in operands]
         if operation in "+*":
             names.sort()
         key = (operation, *names)
@@ -101,6 +128,12 @@ class Trace:
             self._definitions[name] = key
         return self._operations[key]
 
+    def difference(self, a: Any, b: Any) -> Symbol:
+        """The symbol of a - b; the negative of b - a where that is recorded already."""
+        reversed_key = ("-", *(x.name if isinstance(x, Symbol) else repr(float(x)) for x in (b, a)))
+        known = self._operations.get(reversed_key)
+        return self.record("-", (a, b)) if known is None else -known
+
     def code(self, outputs: Iterable[Any]) -> tuple[list[str], set[str]]:
         """Assignments that compute the outputs, in order, and the names of the inputs they use."""
         needed: set[str] = set()
@@ -109,7 +142,8 @@ class Trace:
             name = pending.pop()
             if name not in needed:
                 needed.add(name)
-                pending += [x for x in self._definitions.get(name, ())[1:] if not _number(x)]
+                operands = (x.removeprefix("-") for x in self._definitions.get(name, ())[1:])
+                pending += [x for x in operands if not _number(x)]
         lines = [f"{name} = {_text(key)}" for name, key in self._definitions.items() if name in needed]
         return lines, needed - self._definitions.keys()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -9,7 +10,7 @@ import numpy as np
 
 from sphear.engine.threads import on_threads, thread_count
 from sphear.errors import SphearError
-from sphear.neighbours.cells import CellSort, cell_sort
+from sphear.neighbours.cells import PADDING, cell_sort
 from sphear.neighbours.domain import Domain
 from sphear.neighbours.pair_list import Chunk, build_chunk
 
@@ -29,6 +30,7 @@ class Neighbours:
         support: the distance within which two particles are neighbours.
         domain: None for open space.
         threads: how many threads build and sweep; None takes all processors for many particles, one for few.
+        each_pair_once: make the list of pairs listed once, instead of the full one.
         keep_coincident: list pairs at no distance too (of a point of evaluation and a particle) instead of refusing
             them.
 
@@ -37,7 +39,8 @@ class Neighbours:
         source: (E,), the particle that each entry is (an image) of.
         entry: (N,), the entry of each row.
         rows: (N,), the particle of each row.
-        chunks: the pair list, for ranges of rows.
+        chunks: all neighbours of each row, for ranges of rows.
+        chunks_once: each pair once; of the two lists, one is made at once and the other when first asked for.
 
     Raises:
         SphearError: two particles at the same place.
@@ -50,23 +53,43 @@ class Neighbours:
         domain: Domain | None = None,
         *,
         threads: int | None = None,
+        each_pair_once: bool = False,
         keep_coincident: bool = False,
     ) -> None:
         self.count, self.dimension = positions.shape
         self.support = float(support)
         self.threads = thread_count(threads, self.count)
         entries, source = domain.with_images(positions, self.support) if domain else (positions, None)
-        cells = cell_sort(np.ascontiguousarray(entries, np.float64), self.support)
+        self._keep_coincident = keep_coincident
+        self._cells = cells = cell_sort(np.ascontiguousarray(entries, np.float64), self.support)
         self.coordinates = cells.coordinates
         self.source = cells.order if source is None else source[cells.order]
-        # the particles themselves come before their images in `entries`
-        self.entry = (
-            np.arange(self.count, dtype=np.int32)
-            if source is None
-            else np.flatnonzero(cells.order < self.count).astype(np.int32)
-        )
+        self._image = np.zeros(len(cells.order) + PADDING, np.bool_)
+        if source is not None:  # the particles themselves come before their images in `entries`
+            self._image[: len(cells.order)] = cells.order >= self.count
+        self.entry = np.flatnonzero(~self._image[: len(cells.order)]).astype(np.int32)
         self.rows = self.source[self.entry]
-        self.chunks = self._chunks(cells, keep_coincident)
+        _ = self.chunks_once if each_pair_once else self.chunks
+
+    @cached_property
+    def chunks(self) -> list[Chunk]:
+        """All neighbours of each row: for sums that depend on what was prepared for the one particle."""
+        return self._listed(once=False)
+
+    @cached_property
+    def chunks_once(self) -> list[Chunk]:
+        """Each pair of particles listed from one side only: half the list, and the sums of both sides in one go."""
+        return self._listed(once=True)
+
+    @cached_property
+    def alternating(self) -> bool:
+        """Whether every second chunk of `chunks_once` may be summed at the same time.
+
+        A chunk adds to the sums of its own rows and of entries after them; these must not go beyond the next chunk.
+        """
+        ends = [*(int(self.entry[chunk.begin]) for chunk in self.chunks_once), len(self.source), len(self.source)]
+        reaches = (int(chunk.neighbour[: chunk.pairs].max(initial=0)) for chunk in self.chunks_once)
+        return all(reach < end for reach, end in zip(reaches, ends[2:], strict=True))
 
     @property
     def pairs(self) -> int:
@@ -77,17 +100,26 @@ class Neighbours:
         """The particle of each row of a chunk, (rows of the chunk,)."""
         return self.rows[chunk.begin : chunk.end]
 
-    def _chunks(self, cells: CellSort, keep_coincident: bool) -> list[Chunk]:
-        parts = max(self.threads, -(-self.count // CHUNK_ROWS))
+    def _listed(self, once: bool) -> list[Chunk]:
+        share = 2 * self.threads if self.threads > 1 else 1  # each thread has as many chunks, every second one too
+        parts = share * -(-self.count // (share * CHUNK_ROWS))
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
 
         def build(rows: tuple[int, int]) -> tuple[Chunk, int]:
-            return build_chunk(cells, self.entry, *rows, self.support, keep_coincident)
+            return build_chunk(
+                self._cells,
+                self._image,
+                self.entry,
+                *rows,
+                self.support,
+                once=once,
+                keep_coincident=self._keep_coincident,
+            )
 
         built = on_threads(build, ranges, self.threads)
         for chunk, coincident in built:
-            if coincident and not keep_coincident:
+            if coincident and not self._keep_coincident:
                 self._refuse_coincident(chunk)
         return [chunk for chunk, _ in built]
 

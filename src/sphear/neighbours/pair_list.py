@@ -19,14 +19,14 @@ SLACK = 16  # entries that may be written or read behind the last listed one
 
 _BUILD = """
 from numba import njit
-from sphear.engine.selection import between, load_lanes, population, store_selected
+from sphear.engine.selection import between, load_lanes, once_only, population, store_selected
 
 
 @njit({options})
-def build({axes}, start, rows, cell, entry, first, neighbour, count, low, high, table, row, origin, end, most):
+def build({axes}, image, start, rows, cell, entry, first, neighbour, count, low, high, table, row, origin, end, most):
     '''List the entries j with low < |r_i - r_j|^2 < high for the rows row ... end, as far as there is room.
 
-    Returns the first row not listed, the number of entries listed and of those at no distance (each row counts one).
+    Returns the first row not listed, the number of entries listed and of those at no distance.
     '''
     at_no_distance = 0
     while row < end and count + most <= len(neighbour):
@@ -38,8 +38,8 @@ def build({axes}, start, rows, cell, entry, first, neighbour, count, low, high, 
             while j < stop:
                 {differences}
                 r2 = {square}
-                near = between(r2, -1.0, high, stop - j)
-                kept = between(r2, low, high, stop - j)
+                near = between(r2, -1.0, high, stop - j){once}
+                kept = between(r2, low, high, stop - j){once}
                 at_no_distance += population(near) - population(kept)
                 store_selected(neighbour, count, j, kept, table)
                 count += population(kept)
@@ -51,7 +51,7 @@ def build({axes}, start, rows, cell, entry, first, neighbour, count, low, high, 
 
 
 @lru_cache
-def _builder(dimension: int) -> Any:
+def _builder(dimension: int, once: bool) -> Any:
     names = "xyz"[:dimension]
     text = _BUILD.format(
         options=options_text(),
@@ -60,13 +60,17 @@ def _builder(dimension: int) -> Any:
         differences="; ".join(f"d{a} = load_lanes({a}, j) - {a}_i" for a in names),
         square=" + ".join(f"d{a} * d{a}" for a in names),
         reach=REACH,
+        once=" & once_only(image, j, i)" if once else "",
     )
     return generated_module(text).build
 
 
 @dataclass(frozen=True)
 class Chunk:
-    """The pair list of the rows begin ... end: neighbours of row begin + k are neighbour[first[k]:first[k + 1]]."""
+    """The pair list of the rows begin ... end: neighbours of row begin + k are neighbour[first[k]:first[k + 1]].
+
+    In a list of pairs listed once, those of a row are the entries after its own, and periodic images.
+    """
 
     begin: int
     end: int
@@ -75,18 +79,38 @@ class Chunk:
 
     @property
     def pairs(self) -> int:
-        """The number of listed pairs, each seen from its first particle."""
+        """The number of listed pairs."""
         return int(self.first[-1])
 
 
 def build_chunk(
-    cells: CellSort, entry: Array, begin: int, end: int, support: float, keep_coincident: bool
+    cells: CellSort,
+    image: Array,
+    entry: Array,
+    begin: int,
+    end: int,
+    support: float,
+    *,
+    once: bool = False,
+    keep_coincident: bool = False,
 ) -> tuple[Chunk, int]:
     """List the neighbours of rows begin ... end; also how many pairs of them lie at one place.
 
     "At one place" is nearer than 1e-9 supports. Such pairs are listed only with `keep_coincident`.
+
+    Args:
+        cells: the sorted entries.
+        image: (E + 8,), whether an entry is a periodic image.
+        entry: (N,), the entry of each row.
+        begin: the first row.
+        end: the row after the last.
+        support: the distance within which two particles are neighbours.
+        once: list each pair from one side only.
+        keep_coincident: list pairs at one place too.
     """
-    build = _builder(len(cells.coordinates))
+    build = _builder(len(cells.coordinates), once)
+    # the cells before a particle's own hold no entries after it
+    cell_rows = cells.rows[cells.rows >= 0] if once and not image.any() else cells.rows
     start, dimension = cells.start, len(cells.coordinates)
     run = start[2 * REACH + 1 :] - start[: -2 * REACH - 1]
     most = int(run.max()) * len(cells.rows) + SLACK
@@ -94,21 +118,23 @@ def build_chunk(
     # a first guess from the mean density of the cells in use; grown when it does not suffice, never overflowed
     used = max(1, int(np.count_nonzero(np.diff(start))))
     ball = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}[dimension] * REACH**dimension
-    neighbour = np.empty(int(1.1 * rows * len(cells.cell) / used * ball) + most, np.int32)
+    share = 0.5 if once else 1.0
+    neighbour = np.empty(int(1.1 * share * rows * len(cells.cell) / used * ball) + most, np.int32)
     first = np.zeros(rows + 1, np.int64)
     low = -1.0 if keep_coincident else (1e-9 * support) ** 2
     row, count, coincident = begin, 0, 0
     while True:
         row, count, found = build(
-            *cells.coordinates, start, cells.rows, cells.cell, entry, first, neighbour, count, low, support**2,
+            *cells.coordinates, image, start, cell_rows, cells.cell, entry, first, neighbour, count, low, support**2,
             selection_table_once(), row, begin, end, most,
         )  # fmt: skip
         coincident += found
         if row == end:
             break
         neighbour = np.concatenate((neighbour[:count], np.empty(len(neighbour) // 2 + most, np.int32)))
-    neighbour[count : count + SLACK] = 0
-    return Chunk(begin, end, first, neighbour), coincident - (0 if keep_coincident else rows)
+    neighbour[count : count + SLACK] = entry[end - 1]  # lanes without a neighbour stay within the chunk
+    itself = 0 if once or keep_coincident else rows  # each particle is at no distance of itself
+    return Chunk(begin, end, first, neighbour), coincident - itself
 
 
 @lru_cache

@@ -110,9 +110,9 @@ def read_spacing(spacing: float | None, positions: Array, volumes: Array | None,
     return float(volume ** (1 / len(extent)) / intervals)
 
 
-def particle_volumes(kernel: Kernel, neighbours: Neighbours) -> Array:
+def particle_volumes(kernel: Kernel, neighbours: Neighbours, each_pair_once: bool = False) -> Array:
     """V_i = 1 / sum_j W_ij, the volumes that the particles' own density implies."""
-    return 1.0 / sweep(NumberDensity(kernel), neighbours)[:, 0]
+    return 1.0 / sweep(NumberDensity(kernel), neighbours, each_pair_once=each_pair_once)[:, 0]
 
 
 def read_precision(precision: str) -> str:

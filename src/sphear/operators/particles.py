@@ -14,7 +14,7 @@ from sphear.interactions import Gradient
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
-from sphear.operators.pipeline import Operation, run
+from sphear.operators.pipeline import Operation, Outcome, run
 from sphear.viscosity import ViscousTerm, uncorrected
 
 Array = np.ndarray[Any, Any]
@@ -31,6 +31,8 @@ class Particles:
         neighbours: the pairs within the kernel's support.
         volumes: (N,).
         precision: "float64" or "float32", of the sums.
+        each_pair_once: compute both sides of a pair together where nothing is prepared for either: half the pair list,
+            and faster for the costlier terms, such as the radial ones (`benchmarks/`).
     """
 
     positions: Array
@@ -38,6 +40,7 @@ class Particles:
     neighbours: Neighbours
     volumes: Array
     precision: str = "float64"
+    each_pair_once: bool = False
 
     @classmethod
     def read(
@@ -51,6 +54,7 @@ class Particles:
         domain: Domain | None = None,
         threads: int | None = None,
         precision: str = "float64",
+        each_pair_once: bool = False,
     ) -> Particles:
         """Check what a user gives, and find the neighbours; see `sphear.laplacian` for the arguments."""
         places = arguments.read_positions(positions, domain)
@@ -60,10 +64,10 @@ class Particles:
         else:
             dx = arguments.read_spacing(spacing, places, given, domain)
             chosen = arguments.read_kernel(kernel, h_over_dx, dx)
-        neighbours = Neighbours(places, chosen.radius, domain, threads=threads)
+        neighbours = Neighbours(places, chosen.radius, domain, threads=threads, each_pair_once=each_pair_once)
         if given is None:
-            given = arguments.particle_volumes(chosen, neighbours)
-        return cls(places, chosen, neighbours, given, arguments.read_precision(precision))
+            given = arguments.particle_volumes(chosen, neighbours, each_pair_once)
+        return cls(places, chosen, neighbours, given, arguments.read_precision(precision), each_pair_once)
 
     def laplacian(
         self, values: Array, term: ViscousTerm, correction: Correction, fallback: Fallback | None = None
@@ -117,7 +121,7 @@ class Particles:
         if fallback not in (None, "uncorrected", "nan"):
             raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
         fields = {"volume": self.volumes, **fields}
-        outcome = run(operation, self.neighbours, fields, self.precision)
+        outcome = self._run(operation, fields)
         lacking = outcome.deficient
         if len(lacking) and fallback is None:
             place = ", ".join(f"{x:.6g}" for x in self.positions[lacking[0]])
@@ -128,5 +132,8 @@ class Particles:
         if len(lacking):
             outcome.values[lacking] = np.nan
         if len(lacking) and fallback == "uncorrected":
-            outcome.values[lacking] = run(plain, self.neighbours, fields, self.precision).values[lacking]
+            outcome.values[lacking] = self._run(plain, fields).values[lacking]
         return outcome.values
+
+    def _run(self, operation: Operation, fields: dict[str, Array]) -> Outcome:
+        return run(operation, self.neighbours, fields, each_pair_once=self.each_pair_once, dtype=self.precision)

@@ -41,7 +41,7 @@ class Preparation:
     """What an interaction sums up for each particle of a chunk before it is swept for good.
 
     Args:
-        interaction: a preparation (`quality` is the first number of its result), or None.
+        interaction: a preparation; `quality` is the first number of its result.
         neighbours: the pairs.
         volumes: (N,).
         dtype: of the sums.
@@ -49,19 +49,14 @@ class Preparation:
 
     def __init__(self, interaction: Any, neighbours: Neighbours, volumes: Array, dtype: str) -> None:
         self.interaction = interaction
-        self.template: tuple[tuple[str, Any], ...] = ()
-        if interaction is None:
-            return
         self.sweep = Sweep(interaction, neighbours, {"volume": volumes}, dtype=dtype)
         solved = hasattr(interaction, "solve")
         self.dimension = neighbours.dimension
         result = interaction.template(self.dimension) if solved else self.sweep.formula.result
         self.template = (("prepared", result),)
 
-    def over(self, chunk: Chunk) -> tuple[Array | None, Array]:
+    def over(self, chunk: Chunk) -> tuple[Array, Array]:
         """The prepared numbers of the chunk's rows, in their order, and which of these rows are deficient."""
-        if self.interaction is None:
-            return None, np.empty(0, np.int64)
         rows = chunk.end - chunk.begin
         out = np.empty((rows, self.sweep.outputs), self.sweep.dtype)
         self.sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
@@ -71,15 +66,34 @@ class Preparation:
         return out, np.flatnonzero(~(out[:, 0] > self.interaction.least_quality))
 
 
-def run(operation: Operation, neighbours: Neighbours, fields: dict[str, Array], dtype: str = "float64") -> Outcome:
+def _unprepared(
+    operation: Operation, neighbours: Neighbours, fields: dict[str, Array], each_pair_once: bool, dtype: str
+) -> Outcome:
+    for stage in operation.stages:
+        result = Sweep(stage, neighbours, fields, each_pair_once=each_pair_once, dtype=dtype).everywhere()
+        fields = {**fields, "before": result}
+    return Outcome(result, np.empty(0, np.int64))
+
+
+def run(
+    operation: Operation,
+    neighbours: Neighbours,
+    fields: dict[str, Array],
+    *,
+    each_pair_once: bool = False,
+    dtype: str = "float64",
+) -> Outcome:
     """The stages of an operation one after the other.
 
     Args:
         operation: what is summed.
         neighbours: the pairs.
         fields: arrays (N,) or (N, k), by name; with `volume`.
+        each_pair_once: compute both sides of a pair together where nothing is prepared for either.
         dtype: "float64" or "float32".
     """
+    if operation.preparation is None:
+        return _unprepared(operation, neighbours, fields, each_pair_once, dtype)
     prepared = Preparation(operation.preparation, neighbours, fields["volume"], dtype)
     deficient: list[Array] = []
     result = np.empty((neighbours.count, 0))

@@ -11,10 +11,10 @@ What every term computes, where it comes from, and what was measured of it (`pyt
 this page; a test compares it). All without a correction and with equal volumes, in two dimensions:
 
 - **order**: of the L1 error of the Laplacian of sin(2 pi x) sin(2 pi y) in dx, with h fixed in dx (cubic spline,
-  support 3.14 dx), on a lattice from 160 to 320 particles a side, and on particles jittered by 0.3 dx from 80 to 160, mean of 8
-  seeds. Radial terms act on the velocity whose stream function the field is. An order about 0 is an error that stays
-  however many particles are taken; about -1, one that doubles when dx is halved. On a lattice, errors that stay are
-  small for some terms (0.1 to 2 %).
+  support 3.14 dx), on a lattice from 160 to 320 particles a side, and on particles jittered by 0.3 dx from 80 to 160,
+  mean of 8 seeds. Radial terms act on the velocity whose stream function the field is. An order about 0 is an error
+  that stays however many particles are taken; about -1, one that doubles when dx is halved. On a lattice, errors that
+  stay are small for some terms (0.1 to 2 %).
 - **linear and angular momentum**: zero change to rounding over isolated clusters of jittered particles.
 - **only dissipates**: no velocity gains energy, the eigenvector that would gain most included.
 - **cost**: of one viscous acceleration, preparation included, relative to `morris`.
