@@ -3,8 +3,8 @@
 //
 //   du_i/dt = sum_j m F(r) (2 mu / (rho_i rho_j) r^2 / (r^2 + eta^2) u_ij - (p_i / rho_i^2 + p_j / rho_j^2) r_ij)
 //
-// roofline PARTICLES [RESULTS] prints "layout lanes cells-a-support seconds" lines; with RESULTS it writes there the
-// accelerations (all x, then all y, in the order of the input) of each line whose layout gives some.
+// roofline PARTICLES [RESULTS] prints "step lanes cells-a-support seconds" lines, many times over, or once with RESULTS,
+// where it then writes the accelerations known after each step: all x, then all y, in the order of the input.
 #include "roofline.hpp"
 
 #include <algorithm>
@@ -49,56 +49,27 @@ void list_gathered(const Cells c, const PairList list, const Formula force, Acce
   for (int i = 0; i < c.n; i++) {
     const auto own = repeated<double>(c.sorted, i);
     double fx, fy, x = 0, y = 0;
-    for (int k = list.first[i]; k < list.first[i + 1]; k++)
+    for (size_t k = list.first[i]; k < list.first[i + 1]; k++)
       force(own, load<double>(c.sorted, list.neighbour[k]), fx, fy), x += fx, y += fy;
     out.set(i, x, y);
   }
 }
 
-// Records of 8 numbers a particle, one cache line: loaded whole, four are transposed in registers.
-void pack(const Cells c, double* records) {
-  for (int i = 0; i <= c.n; i++) {
-    const auto one = load<double>(c.sorted, i);
-    std::memcpy(records + 8 * i, &one, sizeof one);
-  }
-}
-void transposed(const double* records, const int* j, Lanes<4>* to) {
-  auto a = load<Lanes<4>>(records + 8 * j[0]), b = load<Lanes<4>>(records + 8 * j[1]);
-  auto c = load<Lanes<4>>(records + 8 * j[2]), d = load<Lanes<4>>(records + 8 * j[3]);
-  auto ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-  to[0] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), to[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-  ab = __builtin_shufflevector(a, b, 1, 5, 3, 7), cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  to[1] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), to[3] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
-}
-template <int L> State<Lanes<L>> others(const double* records, const int* j) {
-  Lanes<L> column[8];
-  if constexpr (L == 4) {
-    transposed(records, j, column), transposed(records + 4, j, column + 4);
-  } else {
-    Lanes<4> low[8], high[8];
-    transposed(records, j, low), transposed(records + 4, j, low + 4);
-    transposed(records, j + 4, high), transposed(records + 4, j + 4, high + 4);
-    for (int k = 0; k < 6; k++) column[k] = __builtin_shufflevector(low[k], high[k], 0, 1, 2, 3, 4, 5, 6, 7);
-  }
-  return {column[0], column[1], column[2], column[3], column[4], column[5]};
-}
-// visit(numbers of L neighbours), with the far particle n in place of those behind the last.
-template <int L, class Visit> void in_lanes(const int* k, const int* stop, int n, Visit visit) {
-  for (; k + L <= stop; k += L) visit(k);
+// visit(numbers of four neighbours), with the far particle behind all others in place of those beyond the last.
+template <class Visit> void by_fours(const PairList& list, int i, int beyond, Visit visit) {
+  const int *k = list.neighbour + list.first[i], *stop = list.neighbour + list.first[i + 1];
+  for (; k + 4 <= stop; k += 4) visit(k);
   if (k == stop) return;
-  int rest[L];
-  for (int l = 0; l < L; l++) rest[l] = k + l < stop ? k[l] : n;
+  int rest[4];
+  for (int l = 0; l < 4; l++) rest[l] = k + l < stop ? k[l] : beyond;
   visit(rest);
 }
 
-template <int L>
 void list_records(const Cells c, const PairList list, const double* records, const Formula force, Accelerations out) {
   for (int i = 0; i < c.n; i++) {
-    const auto own = repeated<Lanes<L>>(c.sorted, i);
-    Lanes<L> fx, fy, x{}, y{};
-    in_lanes<L>(list.neighbour + list.first[i], list.neighbour + list.first[i + 1], c.n, [&](const int* j) {
-      force(own, others<L>(records, j), fx, fy), x += fx, y += fy;
-    });
+    const auto own = repeated<Lanes<4>>(c.sorted, i);
+    Lanes<4> fx, fy, x{}, y{};
+    by_fours(list, i, c.n, [&](const int* j) { force(own, others(records, j), fx, fy), x += fx, y += fy; });
     out.set(i, x, y);
   }
 }
@@ -110,12 +81,14 @@ void list_records_once(const Cells c, const PairList half, const double* records
   for (int i = 0; i < c.n; i++) {
     const auto own = repeated<Lanes<4>>(c.sorted, i);
     Lanes<4> fx, fy, x{}, y{};
-    in_lanes<4>(half.neighbour + half.first[i], half.neighbour + half.first[i + 1], c.n, [&](const int* j) {
-      force(own, others<4>(records, j), fx, fy), x += fx, y += fy;
+    by_fours(half, i, c.n, [&](const int* j) {
+      force(own, others(records, j), fx, fy), x += fx, y += fy;
       auto subtract = [&](int j, Lanes<2> f) { store(sums + 2 * j, load<Lanes<2>>(sums + 2 * j) - f); };
       auto even = __builtin_shufflevector(fx, fy, 0, 4, 2, 6), odd = __builtin_shufflevector(fx, fy, 1, 5, 3, 7);
-      subtract(j[0], __builtin_shufflevector(even, even, 0, 1)), subtract(j[1], __builtin_shufflevector(odd, odd, 0, 1));
-      subtract(j[2], __builtin_shufflevector(even, even, 2, 3)), subtract(j[3], __builtin_shufflevector(odd, odd, 2, 3));
+      subtract(j[0], __builtin_shufflevector(even, even, 0, 1));
+      subtract(j[1], __builtin_shufflevector(odd, odd, 0, 1));
+      subtract(j[2], __builtin_shufflevector(even, even, 2, 3));
+      subtract(j[3], __builtin_shufflevector(odd, odd, 2, 3));
     });
     out.set(i, sums[2 * i] + total(x), sums[2 * i + 1] + total(y));
   }
@@ -127,16 +100,17 @@ int main(int count, char** arguments) {
   if (!file || std::fread(head, 8, 5, file) != 5) return 1;
   const int n = head[0];
   const Formula force{1 / head[1], head[2], head[3]};
-  auto columns = [&] { return Columns{room<double>(n), room<double>(n), room<double>(n), room<double>(n), room<double>(n), room<double>(n)}; };
+  auto column = [&] { return room<double>(n); };
+  auto columns = [&] { return Columns{column(), column(), column(), column(), column(), column()}; };
   Cells c{n, 1, 0, head[1], room<int>(n), room<int>(n), room<int>(40 * size_t(n) + 10000), columns(), columns()};
-  for (double* column : {c.given.x, c.given.y, c.given.u, c.given.v, c.given.p, c.given.q})
-    if (std::fread(column, 8, n, file) != size_t(n)) return 1;
+  for (double* given : {c.given.x, c.given.y, c.given.u, c.given.v, c.given.p, c.given.q})
+    if (std::fread(given, 8, n, file) != size_t(n)) return 1;
   const size_t most = 60 * size_t(n) + 10000;
-  const PairList list{most, room<int>(n), room<int>(most)}, half{most, room<int>(n), room<int>(most)};
-  const Accelerations out{room<double>(n), room<double>(n), head[4]};
+  const PairList list{most, room<size_t>(n), room<int>(most)}, half{most, room<size_t>(n), room<int>(most)};
+  const Accelerations out{column(), column(), head[4]};
   double *records = room<double>(8 * size_t(n + 1)), *sums = room<double>(2 * size_t(n + 1));
 
-  struct Step { const char* layout; int lanes; std::function<void()> run; };
+  struct Step { const char* name; int lanes; std::function<void()> run; };
   const Step steps[] = {
       {"sort", 1, [&] { c.sort(); }},
       {"build", 4, [&] { list.build(c, false); }},
@@ -148,20 +122,19 @@ int main(int count, char** arguments) {
       {"sym_vec", 4, [&] { cells_once<Lanes<4>>(c, force, out); }},
       {"sym_vec", 8, [&] { cells_once<Lanes<8>>(c, force, out); }},
       {"csr_gather", 1, [&] { list_gathered(c, list, force, out); }},
-      {"csr_aos", 4, [&] { list_records<4>(c, list, records, force, out); }},
-      {"csr_aos", 8, [&] { list_records<8>(c, list, records, force, out); }},
+      {"csr_aos", 4, [&] { list_records(c, list, records, force, out); }},
       {"half_aos", 4, [&] { list_records_once(c, half, records, sums, force, out); }},
   };
   FILE* results = count > 2 ? std::fopen(arguments[2], "wb") : nullptr;
   std::vector<double> original(n);
   for (c.reach = 1; c.reach <= 3; c.reach++)
     for (int round = 0; round < (results ? 1 : 4); round++)
-      for (const auto& [layout, lanes, run] : steps) {
+      for (const auto& [name, lanes, run] : steps) {
         const auto started = std::chrono::steady_clock::now();
         run();
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-        std::printf("%s %d %d %.9f\n", layout, lanes, c.reach, taken.count());
-        if (!results || &layout < &steps[4].layout) continue;
+        std::printf("%s %d %d %.9f\n", name, lanes, c.reach, taken.count());
+        if (!results) continue;
         for (const double* sorted : {out.x, out.y}) {
           for (int i = 0; i < n; i++) original[c.order[i]] = sorted[i];
           std::fwrite(original.data(), 8, n, results);

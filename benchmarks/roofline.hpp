@@ -1,24 +1,23 @@
-// What the layouts of roofline.cpp share: vectors, the formula, the cell sort and the pair list.
+// What the layouts of roofline.cpp share: vectors, the formula, the cell sort, records and the pair list.
 #pragma once
+#include <immintrin.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
-#ifdef __AVX2__
-#include <immintrin.h>
-#endif
 
-// The vectors of GCC 12 and Clang: plain arithmetic on 4 or 8 numbers, whatever the processor.
+// The vectors of GCC 12 and Clang: plain arithmetic on 4 or 8 numbers.
 template <int L> struct LanesOf { typedef double type __attribute__((vector_size(8 * L))); };
 template <int L> using Lanes = typename LanesOf<L>::type;
 template <class V> constexpr int lanes = sizeof(V) / sizeof(double);
 
-template <class V> V load(const double* from) {
+template <class V, class T> V load(const T* from) {
   V value;
   std::memcpy(&value, from, sizeof value);
   return value;
 }
-template <class V> void store(double* to, V value) { std::memcpy(to, &value, sizeof value); }
+template <class V, class T> void store(T* to, V value) { std::memcpy(to, &value, sizeof value); }
 inline double root(double a) { return std::sqrt(a); }
 template <class V> V root(V a) {
   for (int l = 0; l < lanes<V>; l++) a[l] = std::sqrt(a[l]);
@@ -72,7 +71,9 @@ struct Cells {
     double inverse = reach / (support * (1 + 1e-9));
     across = int(inverse) + 1 + 2 * reach;
     std::memset(start, 0, sizeof(int) * (across * across + 1));
-    auto number = [&](int i) { return (int(given.y[i] * inverse) + reach) * across + int(given.x[i] * inverse) + reach; };
+    auto number = [&](int i) {
+      return (int(given.y[i] * inverse) + reach) * across + int(given.x[i] * inverse) + reach;
+    };
     for (int i = 0; i < n; i++) start[number(i) + 1]++;
     for (int c = 0; c < across * across; c++) start[c + 1] += start[c];
     std::vector<int> next(start, start + across * across);
@@ -84,40 +85,63 @@ struct Cells {
     }
     sorted.x[n] = sorted.y[n] = 1e9;
   }
-  // The candidates of particle i in a row of cells; of each pair once: those behind i, and the rows above.
+  // The candidates of particle i in a row of cells; those of each pair once are behind i, and in the rows above.
   int begin(int i, int row) const { return start[cell[i] + row * across - reach]; }
   int end(int i, int row) const { return start[cell[i] + row * across + reach + 1]; }
   int begin_once(int i, int row) const { return row ? begin(i, row) : i + 1; }
 };
 
+// Records of 8 numbers a particle, one cache line: loaded whole, four are transposed in registers.
+inline void pack(const Cells c, double* records) {
+  for (int i = 0; i <= c.n; i++) {
+    const auto one = load<double>(c.sorted, i);
+    std::memcpy(records + 8 * i, &one, sizeof one);
+  }
+}
+inline void transposed(const double* records, const int* j, Lanes<4>* to) {
+  auto a = load<Lanes<4>>(records + 8 * j[0]), b = load<Lanes<4>>(records + 8 * j[1]);
+  auto c = load<Lanes<4>>(records + 8 * j[2]), d = load<Lanes<4>>(records + 8 * j[3]);
+  auto ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  to[0] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), to[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+  ab = __builtin_shufflevector(a, b, 1, 5, 3, 7), cd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  to[1] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), to[3] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+}
+inline State<Lanes<4>> others(const double* records, const int* j) {
+  Lanes<4> column[8];
+  transposed(records, j, column), transposed(records + 4, j, column + 4);
+  return {column[0], column[1], column[2], column[3], column[4], column[5]};
+}
+
 struct PairList {
   size_t capacity;
-  int *first, *neighbour;
+  size_t* first;
+  int* neighbour;
 
   // Four candidates at a time; a table packs those within the support to the left.
   void build(const Cells c, bool once) const {
-    alignas(16) static int table[16][4];
+    typedef int Numbers __attribute__((vector_size(16)));
+    int table[16][4] = {};
     for (int bits = 0; bits < 16; bits++)
       for (int l = 0, k = 0; l < 4; l++)
         if (bits >> l & 1) table[bits][k++] = l;
-    int count = 0;
+    size_t count = 0;
     for (int i = 0; i < c.n; i++) {
       first[i] = count;
-      if (count + 1000ul > capacity) std::abort();
-      auto x = Lanes<4>{} + c.sorted.x[i], y = Lanes<4>{} + c.sorted.y[i];
-      for (int row = once ? 0 : -c.reach; row <= c.reach; row++)
-        for (int j = once ? c.begin_once(i, row) : c.begin(i, row), stop = c.end(i, row); j < stop; j += 4) {
+      if (count + 1000 > capacity) std::abort();
+      const auto x = Lanes<4>{} + c.sorted.x[i], y = Lanes<4>{} + c.sorted.y[i];
+      auto add = [&](int j, int stop) {
+        for (; j < stop; j += 4) {
           auto dx = x - load<Lanes<4>>(c.sorted.x + j), dy = y - load<Lanes<4>>(c.sorted.y + j), r2 = dx * dx + dy * dy;
-          auto near = (r2 < c.support * c.support) & (r2 > 0);
-#ifdef __AVX2__
-          int bits = _mm256_movemask_pd((__m256d)near);
-#else
-          int bits = (near[0] & 1) | (near[1] & 2) | (near[2] & 4) | (near[3] & 8);
-#endif
+          int bits = _mm256_movemask_pd((__m256d)(r2 < c.support * c.support));
           if (stop - j < 4) bits &= (1 << (stop - j)) - 1;
-          for (int l = 0; l < 4; l++) neighbour[count + l] = j + table[bits][l];
+          store(neighbour + count, load<Numbers>(table[bits]) + j);
           count += __builtin_popcount(bits);
         }
+      };
+      for (int row = once ? 1 : -c.reach; row <= c.reach; row++)
+        if (row) add(c.begin(i, row), c.end(i, row));
+      if (!once) add(c.begin(i, 0), i);
+      add(i + 1, c.end(i, 0));
     }
     first[c.n] = count;
   }

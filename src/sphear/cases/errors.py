@@ -39,17 +39,16 @@ class PatchErrors:
 
 
 def patch_errors(computed: Array, exact: Array) -> PatchErrors:
-    """The errors of `computed` (M, k) against `exact` (M, k), absolute where the exact field is zero."""
-    difference = np.abs(computed - exact)
-    size = np.abs(exact)
+    """The errors of `computed` (M, k) against `exact` (M, k); where the exact field is zero, their absolute means."""
+    of_error, of_field = _means(np.abs(computed - exact)), _means(np.abs(exact))
+    l1, l2, largest = (error / size if size > 0 else error for error, size in zip(of_error, of_field, strict=True))
+    return PatchErrors(l1=l1, l2=l2, max=largest, paper=l1 / max(1, len(exact)))
 
-    def ratio(error: float, norm: float) -> float:
-        return error / norm if norm > 0 else error
 
-    l1 = ratio(float(difference.sum()), float(size.sum()))
-    return PatchErrors(
-        l1=l1,
-        l2=ratio(float(np.sqrt((difference**2).sum())), float(np.sqrt((size**2).sum()))),
-        max=ratio(float(difference.max(initial=0.0)), float(size.max(initial=0.0))),
-        paper=l1 / max(1, len(exact)),
-    )
+def _means(sizes: Array) -> tuple[float, float, float]:
+    """The mean, the root of the mean square and the largest of numbers that are not negative."""
+    largest = float(sizes.max(initial=0.0))
+    if largest == 0:
+        return 0.0, 0.0, 0.0
+    scaled = sizes / largest  # so that no square is too large or too small for a number
+    return largest * float(scaled.mean()), largest * float(np.sqrt((scaled**2).mean())), largest

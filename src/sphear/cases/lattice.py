@@ -51,11 +51,16 @@ def lattice(intervals: int, dimension: int, *, layers: int = 0, jitter: float = 
         raise SphearError(f"a lattice needs at least 1 interval, not {intervals}")
     if not 0 <= jitter <= 1:
         raise SphearError(f"the jitter must be from 0 to 1 spacings, above which particles can meet, not {jitter}")
+    count = (intervals + 2 * layers + 1) ** dimension
+    if count > np.iinfo(np.int32).max:
+        raise SphearError(
+            f"{intervals} intervals a side, with {layers} beyond each edge, are too many for a lattice in {dimension}-D"
+        )
     spacing = 1.0 / intervals
     ticks = np.arange(-layers, intervals + layers + 1, dtype=np.int32)
     depth = np.minimum(ticks, intervals - ticks)
     shape = (len(ticks),) * dimension
-    positions = np.empty((len(ticks) ** dimension, dimension))
+    positions = np.empty((count, dimension))
     inside = np.full(shape, np.iinfo(np.int32).max, np.int32)
     for axis in range(dimension):
         along = [1] * dimension

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -17,7 +17,7 @@ from sphear.cases.stream import stream_velocity
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError, TooFewNeighboursError
 from sphear.operators import Particles, arguments
-from sphear.viscosity import ViscousTerm
+from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
@@ -26,8 +26,8 @@ class PatchTest(BaseModel):
     """The settings of a patch test on the unit square or cube.
 
     Attributes:
-        viscosity: names of the viscous terms.
-        sizes: particles a side, each giving one spacing dx = 1 / size.
+        viscosity: names or aliases of the viscous terms; one given twice counts once.
+        sizes: particles a side, each giving one spacing dx = 1 / size; one given twice counts once.
         field: name of a field or an expression of x, y, z.
         velocity: act on the divergence-free velocity whose stream function the field is, instead of on the field
             itself; the terms whose pair force is radial can do nothing else.
@@ -41,12 +41,12 @@ class PatchTest(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    viscosity: tuple[str, ...] = ("morris",)
-    sizes: tuple[int, ...] = (20, 40, 60, 80, 100)
+    viscosity: tuple[str, ...] = Field(default=("morris",), min_length=1)
+    sizes: tuple[Annotated[int, Field(ge=1, le=1_000_000)], ...] = Field(default=(20, 40, 60, 80, 100), min_length=1)
     field: str = "quartic"
     velocity: bool = False
     kernel: str = "cubic_spline"
-    h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    h_over_dx: float | None = Field(default=None, ge=1e-6, le=1e6)
     correction: str = "none"
     dimension: Literal[2, 3] = 2
     jitter: float = Field(default=0.0, ge=0, le=1)
@@ -67,9 +67,9 @@ class PatchTest(BaseModel):
         Raises:
             SphearError: an unknown name, a field or expression without a value somewhere, too few neighbours.
         """
-        terms = [arguments.read_viscosity(name) for name in dict.fromkeys(self.viscosity)]
+        terms = {VISCOSITY.name(name): arguments.read_viscosity(name) for name in self.viscosity}
         known = scalar_field(self.field, self.dimension)
-        for term in terms:
+        for term in terms.values():
             arguments.read_correction(self.correction, term)
             if term.radial and not self.velocity:
                 raise SphearError(
@@ -78,23 +78,23 @@ class PatchTest(BaseModel):
                 )
         errors = {
             (name, size): PatchErrors.mean(found)
-            for size in self.sizes
+            for size in dict.fromkeys(self.sizes)
             for name, found in self._at(size, terms, known, progress).items()
         }
-        return [row for name in dict.fromkeys(self.viscosity) for row in self._of_term(name, errors)]
+        return [row for name in terms for row in self._of_term(name, errors)]
 
     def _of_term(self, name: str, errors: dict[tuple[str, int], PatchErrors]) -> Iterator[dict[str, Any]]:
         before: tuple[int, PatchErrors] | None = None
-        for size in self.sizes:
+        for size in dict.fromkeys(self.sizes):
             found = errors[name, size]
             order = None
-            if before is not None and min(found.l1, before[1].l1) > 0 and size != before[0]:
+            if before is not None and min(found.l1, before[1].l1) > 0:
                 order = math.log(before[1].l1 / found.l1) / math.log(size / before[0])
             yield {"viscosity": name, "particles": size, "dx": 1 / size, **found.as_dict(), "order": order}
             before = size, found
 
     def _at(
-        self, size: int, terms: list[ViscousTerm], known: ScalarField, progress: Callable[[str], None]
+        self, size: int, terms: dict[str, ViscousTerm], known: ScalarField, progress: Callable[[str], None]
     ) -> dict[str, list[PatchErrors]]:
         kernel = arguments.read_kernel(self.kernel, self.h_over_dx, 1.0 / size)
         reach = math.ceil(kernel.radius * size - 1e-9)  # intervals that a support covers
@@ -105,8 +105,7 @@ class PatchTest(BaseModel):
             )
         # first derivatives of first derivatives need their neighbours' neighbours
         layers = 2 * reach + 1 if self.edges == "continued" else 0
-        names = list(dict.fromkeys(self.viscosity))
-        found: dict[str, list[PatchErrors]] = {name: [] for name in names}
+        found: dict[str, list[PatchErrors]] = {name: [] for name in terms}
         for seed in range(self.seed, self.seed + (self.seeds if self.jitter else 1)):
             progress(f"{size} particles a side" + (f", seed {seed}" if self.jitter else ""))
             grid = lattice(size, self.dimension, layers=layers, jitter=self.jitter, seed=seed)
@@ -118,7 +117,7 @@ class PatchTest(BaseModel):
                 threads=thread_count(self.threads, len(grid.positions)),
                 precision=self.precision,
             )
-            for name, term in zip(names, terms, strict=True):
+            for name, term in terms.items():
                 computed, exact = self._laplacians(particles, term, known, grid, sample)
                 found[name].append(patch_errors(computed, exact))
         return found
@@ -143,12 +142,16 @@ class PatchTest(BaseModel):
 
         # particles beyond the sample may lack neighbours; those of the sample may not, unless the user says so
         result = compute("nan" if self.fallback is None else self.fallback)[sample]
-        lacking = np.flatnonzero(np.isnan(result).any(axis=1))
-        if len(lacking) and self.fallback is None:
-            place = ", ".join(f"{x:.6g}" for x in grid.positions[sample[lacking[0]]])
+        lacking = np.isnan(result).any(axis=1)
+        needs_neighbours = term.own_correction or correction.name != "none"
+        if np.isinf(result).any() or (lacking.any() and not needs_neighbours):
+            raise SphearError(f"the sums over field {self.field!r} are too large for {self.precision} numbers")
+        if lacking.all() or (lacking.any() and self.fallback is None):
+            place = ", ".join(f"{x:.6g}" for x in grid.positions[sample[lacking][0]])
+            what = f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
+            remedy = "" if self.fallback == "nan" else ", or ask for fallback 'uncorrected' or 'nan'"
             raise TooFewNeighboursError(
-                f"{len(lacking)} of {len(sample)} particles have too few neighbours for viscosity {term.name!r}, the"
-                f" first at ({place}): take a larger h_over_dx, or ask for fallback 'uncorrected' or 'nan'"
+                f"{lacking.sum()} of {len(sample)} particles have too few neighbours for {what}, the first at"
+                f" ({place}): take a larger h_over_dx{remedy}"
             )
-        kept = ~np.isnan(result).any(axis=1)
-        return result[kept], exact[kept]
+        return result[~lacking], exact[~lacking]

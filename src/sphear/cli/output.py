@@ -7,7 +7,9 @@ import math
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
+
+from sphear.errors import SphearError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,11 +30,16 @@ def _finite(value: Any) -> Any:
     return [_finite(item) for item in value] if isinstance(value, list | tuple) else value
 
 
+def is_terminal(stream: TextIO | None) -> bool:
+    """Whether someone is watching; a closed stream is None."""
+    return stream is not None and stream.isatty()
+
+
 def print_tables(tables: Sequence[Table]) -> None:
     """The tables on stdout, as wide as they are where stdout is not a terminal."""
     from rich.console import Console
 
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
+    console = Console(width=None if is_terminal(sys.stdout) else 200, highlight=False)
     for table in tables:
         console.print(table.render())
 
@@ -41,13 +48,13 @@ def print_text(text: str) -> None:
     """Text on stdout, wrapped to a terminal's width."""
     from rich.console import Console
 
-    Console(width=None if sys.stdout.isatty() else 200, highlight=False, markup=False).print(text)
+    Console(highlight=False, markup=False, emoji=False).print(text, soft_wrap=not is_terminal(sys.stdout))
 
 
 @contextmanager
 def progress(what: str) -> Iterator[Callable[[str], None]]:
     """A line on stderr that says what is being done; nothing where stderr is not a terminal."""
-    if not sys.stderr.isatty():
+    if not is_terminal(sys.stderr):
         yield lambda text: None
         return
     from rich.console import Console
@@ -60,6 +67,8 @@ def folder(out: str | None) -> OutputFolder | None:
     """The output folder, refused at once if it cannot be written; None where no files are wanted."""
     if out is None:
         return None
+    if not out.strip():
+        raise SphearError("the output folder needs a name")
     from sphear.results import OutputFolder
 
     return OutputFolder(out)

@@ -20,6 +20,7 @@ def reproduce(
     wanted = studies.items(paper, item or [])
     files = folder(out)
     results = []
+    shown: set[str] = set()  # a figure drawn from a table that was just printed does not print it again
     for name in wanted:
         with progress(f"{paper} {name}") as tell:
             result = studies.reproduce(paper, name, quick=quick, progress=tell)
@@ -28,8 +29,9 @@ def reproduce(
                 figures = {f"{paper}-{figure}": draw for figure, draw in result.figures.items()}
                 write(files, f"{paper}-{name}", results[-1], result.tables, figures)
         if not as_json:
-            print_tables(result.tables)
-            print_text(f"  The paper: {result.claim}.\n  Found: {result.finding}.\n  Agrees: {result.agrees}.\n")
+            print_tables([table for table in result.tables if table.title not in shown])
+            shown.update(table.title for table in result.tables)
+            print_text(f"{paper} {name}\n  The paper: {result.claim}.\n  Found: {result.finding}.\n  Agrees: {result.agrees}.\n")
     if as_json:
         print_json(results[0] if len(results) == 1 else results)
     elif files is not None:

@@ -6,12 +6,15 @@ import dataclasses
 from collections.abc import Callable, Iterator
 from typing import Any
 
+_FLOATS = ("float", float, "float | None", float | None)  # None is part of the code, a number is not
+
 
 def _attributes(formula: Any) -> list[tuple[str, bool, Any]]:
     """(name, whether it is a run-time float, value) of each field of a frozen dataclass."""
     return [
-        (field.name, field.type in ("float", float), getattr(formula, field.name))
+        (field.name, field.type in _FLOATS and value is not None, value)
         for field in dataclasses.fields(formula)
+        for value in (getattr(formula, field.name),)
     ]
 
 
