@@ -35,63 +35,66 @@ class CellSort:
 
 
 @compiled
-def _bounds(positions, lower, upper):  # type: ignore[no-untyped-def]
-    for axis in range(positions.shape[1]):
+def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
+    """The attributes of `CellSort` for positions (E, d), in their order; compiled, so that a time loop can call it."""
+    entries, dimension = positions.shape
+    lower, extent = np.zeros(dimension), np.zeros(dimension)
+    for axis in range(dimension):
         low, high = np.inf, -np.inf
-        for entry in range(positions.shape[0]):
+        for entry in range(entries):
             low, high = min(low, positions[entry, axis]), max(high, positions[entry, axis])
-        lower[axis], upper[axis] = low, high
+        if entries:
+            lower[axis], extent[axis] = low, high - low
 
+    # cells of half a support, or larger ones where that would leave most cells empty
+    size = support / REACH * (1 + 1e-9)
+    wanted = np.inf
+    while wanted > 8 * entries + 1000:
+        wanted = 1.0
+        for axis in range(dimension):
+            wanted *= extent[axis] / size + 2 * REACH + 1
+        size *= 1.0 if wanted <= 8 * entries + 1000 else 1.5
+    inverse = 1.0 / size
+    # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
+    strides = np.ones(dimension, np.int64)  # the first axis runs fastest
+    cells, border = 1, 0
+    for axis in range(dimension):
+        strides[axis] = cells
+        border += REACH * cells
+        cells *= np.int64(extent[axis] * inverse) + 1 + 2 * REACH
 
-@compiled
-def _count(positions, lower, inverse_size, strides, offset, cell, count):  # type: ignore[no-untyped-def]
-    for entry in range(positions.shape[0]):
-        number = offset
-        for axis in range(positions.shape[1]):
-            number += np.int64((positions[entry, axis] - lower[axis]) * inverse_size) * strides[axis]
+    cell = np.empty(entries, np.int32)
+    start = np.zeros(cells + 1, np.int64)
+    for entry in range(entries):
+        number = border
+        for axis in range(dimension):
+            number += np.int64((positions[entry, axis] - lower[axis]) * inverse) * strides[axis]
         cell[entry] = number
-        count[number + 1] += 1
+        start[number + 1] += 1
+    for number in range(cells):
+        start[number + 1] += start[number]
 
-
-@compiled
-def _place(positions, cell, following, coordinates, order, sorted_cell):  # type: ignore[no-untyped-def]
-    for entry in range(positions.shape[0]):
+    following = start[:-1].copy()
+    coordinates = np.full((dimension, entries + PADDING), np.inf)
+    order, sorted_cell = np.empty(entries, np.int32), np.empty(entries, np.int32)
+    for entry in range(entries):
         place = following[cell[entry]]
         following[cell[entry]] += 1
         order[place] = entry
         sorted_cell[place] = cell[entry]
-        for axis in range(positions.shape[1]):
+        for axis in range(dimension):
             coordinates[axis, place] = positions[entry, axis]
+
+    rows = np.zeros(1, np.int64)
+    for axis in range(1, dimension):
+        before = rows
+        rows = np.empty(len(before) * (2 * REACH + 1), np.int64)
+        for step in range(2 * REACH + 1):
+            for k in range(len(before)):
+                rows[step * len(before) + k] = (step - REACH) * strides[axis] + before[k]
+    return coordinates, order, sorted_cell, start, rows
 
 
 def cell_sort(positions: Array, support: float) -> CellSort:
     """Sort positions (E, d) into cells of half a support, or larger ones where that would leave most cells empty."""
-    entries, dimension = positions.shape
-    lower, upper = np.zeros(dimension), np.zeros(dimension)
-    if entries:
-        _bounds(positions, lower, upper)
-    extent = upper - lower
-    size = support / REACH * (1 + 1e-9)
-    with np.errstate(over="ignore"):
-        while np.prod(extent / size + 2 * REACH + 1) > 8 * entries + 1000:
-            size *= 1.5
-    # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
-    shape = (extent / size).astype(np.int64) + 1 + 2 * REACH
-    strides = np.ones(dimension, np.int64)  # the first axis runs fastest
-    strides[1:] = np.cumprod(shape[:-1])
-    cells = int(np.prod(shape))
-
-    cell = np.empty(entries, np.int32)
-    start = np.zeros(cells + 1, np.int64)
-    _count(positions, lower, 1.0 / size, strides, REACH * int(strides.sum()), cell, start)
-    np.cumsum(start, out=start)
-    coordinates = np.empty((dimension, entries + PADDING))
-    coordinates[:, entries:] = np.inf
-    order, sorted_cell = np.empty(entries, np.int32), np.empty(entries, np.int32)
-    _place(positions, cell, start[:-1].copy(), coordinates, order, sorted_cell)
-
-    steps = np.arange(-REACH, REACH + 1)
-    rows = np.zeros(1, np.int64)
-    for stride in strides[1:]:
-        rows = (steps[:, None] * stride + rows[None, :]).ravel()
-    return CellSort(coordinates, order, sorted_cell, start, rows)
+    return CellSort(*sorted_cells(positions, support))

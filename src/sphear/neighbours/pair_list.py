@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -51,7 +52,8 @@ def build({axes}, image, start, rows, cell, entry, first, neighbour, count, low,
 
 
 @lru_cache
-def _builder(dimension: int, once: bool) -> Any:
+def list_module(dimension: int, once: bool = False) -> ModuleType:
+    """The module whose `build` lists neighbours, all of each row or each pair once."""
     names = "xyz"[:dimension]
     text = _BUILD.format(
         options=options_text(),
@@ -62,7 +64,7 @@ def _builder(dimension: int, once: bool) -> Any:
         reach=REACH,
         once=" & once_only(image, j, i)" if once else "",
     )
-    return generated_module(text).build
+    return generated_module(text)
 
 
 @dataclass(frozen=True)
@@ -108,7 +110,7 @@ def build_chunk(
         once: list each pair from one side only.
         keep_coincident: list pairs at one place too.
     """
-    build = _builder(len(cells.coordinates), once)
+    build = list_module(len(cells.coordinates), once).build
     # the cells before a particle's own hold no entries after it
     cell_rows = cells.rows[cells.rows >= 0] if once and not image.any() else cells.rows
     start, dimension = cells.start, len(cells.coordinates)

@@ -48,17 +48,23 @@ class LeastSquaresPreparation:
         """The form of what `solve` returns."""
         return Fit(0.0, (0.0,) * len(exponents(dimension, 1, self.degree)))
 
+    def normal_equations(self, dimension: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+        """Which moment each entry of M is, (n, n), and the Laplacian of each basis monomial, (n,)."""
+        import numpy as np
+
+        basis = exponents(dimension, 1, self.degree)
+        place = {powers: k for k, powers in enumerate(exponents(dimension, 2, 2 * self.degree))}
+        index = np.array([[place[tuple(map(sum, zip(a, b, strict=True)))] for b in basis] for a in basis])
+        return index, np.array([2.0 / self.kernel.h**2 if max(a) == 2 == sum(a) else 0.0 for a in basis])
+
     def solve(self, moments: np.ndarray[Any, Any], dimension: int) -> np.ndarray[Any, Any]:
         """From moments (rows, m) to `Fit` (rows, 1 + n)."""
         import numpy as np
 
         from sphear.engine.dense import solve_normal_equations
 
-        basis = exponents(dimension, 1, self.degree)
-        place = {powers: k for k, powers in enumerate(exponents(dimension, 2, 2 * self.degree))}
-        index = np.array([[place[tuple(map(sum, zip(a, b, strict=True)))] for b in basis] for a in basis])
-        right = np.array([2.0 / self.kernel.h**2 if max(a) == 2 == sum(a) else 0.0 for a in basis])
-        result = np.empty((len(moments), 1 + len(basis)))
+        index, right = self.normal_equations(dimension)
+        result = np.empty((len(moments), 1 + len(right)))
         solve_normal_equations(moments.astype(np.float64, copy=False), index, right, result[:, 0], result[:, 1:])
         return result
 

@@ -8,7 +8,7 @@ from typing import Any
 from sphear.algebra import Scalar, Vector, add, scale, trace, transpose
 from sphear.corrections import Correction
 from sphear.engine.formula import Interaction
-from sphear.interactions import Divergence, Gradient
+from sphear.interactions import Divergence, Gradient, ViscousAcceleration
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm
 
@@ -38,22 +38,6 @@ class ViscousStress:
         )
 
 
-@dataclass(frozen=True)
-class StressDivergence:
-    """(1/rho) div tau, second pass (Basa's eqs. 5 and 29; the term in lambda with the sign of eq. 4)."""
-
-    kernel: Kernel
-    correction: Correction
-
-    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> Vector:
-        """The pair's part of div tau."""
-        return Divergence(self.kernel, self.correction).pair(own, other, d, r2)
-
-    def finish(self, own: Any, total: Vector) -> Vector:
-        """Divided by the density."""
-        return scale(1.0 / own.density, total)
-
-
 @dataclass(frozen=True, repr=False)
 class TwoPass(LaplacianTerm):
     """d2 F / dx_a dx_b = <d/dx_a <dF/dx_b>>: a first derivative of first derivatives, in two sweeps.
@@ -73,4 +57,11 @@ class TwoPass(LaplacianTerm):
 
     def acceleration_stages(self, kernel: Kernel, correction: Correction) -> tuple[Interaction, ...]:
         """The stress, then its divergence."""
-        return ViscousStress(kernel, correction), StressDivergence(kernel, correction)
+        return ViscousStress(kernel, correction), ViscousAcceleration(self, kernel, correction)
+
+    def acceleration(
+        self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar
+    ) -> Vector:
+        """The pair's part of div tau / rho, of the stresses `before`."""
+        divergence = Divergence(kernel, correction).pair(own, other, d, r2)
+        return scale(1.0 / own.density, divergence)

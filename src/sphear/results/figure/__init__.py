@@ -4,6 +4,7 @@ A figure belongs to its caller alone: `matplotlib.pyplot`, with its global state
 """
 
 from sphear.results.figure.convergence import Convergence, convergence_panels, loglog_convergence
+from sphear.results.figure.flow import flow_panels
 from sphear.results.figure.panels import Profile, profiles, scatter_panels, surface_panels
 from sphear.results.figure.style import LOOKS, look, save
 
@@ -12,6 +13,7 @@ __all__ = [
     "Convergence",
     "Profile",
     "convergence_panels",
+    "flow_panels",
     "loglog_convergence",
     "look",
     "profiles",

@@ -1,0 +1,77 @@
+"""Plane Couette flow from rest: one wall moves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries import Box
+from sphear.cases.flow.base import FlowCase
+from sphear.cases.flow.lattice import staggered_from_walls
+from sphear.references.couette import PlaneCouette
+from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible import Problem, WeaklyCompressible
+
+Array = np.ndarray[Any, Any]
+
+GAP, KINEMATIC_VISCOSITY, DENSITY = 1.0, 1.0, 1.0
+STEADY = 1e-12
+
+
+def reference(settings: FlowSettings) -> PlaneCouette:
+    """The exact flow; the wall's velocity follows from the Reynolds number U L / nu."""
+    return PlaneCouette(GAP, KINEMATIC_VISCOSITY, settings.reynolds * KINEMATIC_VISCOSITY / GAP)
+
+
+def problem(settings: FlowSettings) -> Problem:
+    """A square of particles between a wall at rest below and one that moves above."""
+    positions, spacing = staggered_from_walls(settings.resolution, GAP, centred=False)
+    speed = reference(settings).wall_velocity
+    return Problem(
+        positions=positions,
+        velocities=np.zeros_like(positions),
+        box=Box((0.0, 0.0), (GAP, GAP), ("periodic", "walls"), upper_velocity=(speed, 0.0)),
+        body_force=(0.0, 0.0),
+        spacing=spacing,
+        density=DENSITY,
+        kinematic_viscosity=KINEMATIC_VISCOSITY,
+        speed=speed,
+        length=GAP,
+    )
+
+
+def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
+    """The start-up series."""
+    along = reference(settings).velocity(positions[:, 1], time)
+    return np.stack((along, np.zeros_like(along)), axis=1)
+
+
+def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float]:
+    """The RMS error relative to the wall's velocity, and the kinetic energy over that of the steady flow."""
+    along = exact(settings, flow.positions, flow.time)[:, 0]
+    speed = reference(settings).wall_velocity
+    steady = reference(settings).steady(flow.positions[:, 1])
+    return {
+        "rms_error": float(np.sqrt(np.mean((flow.velocities[:, 0] - along) ** 2)) / speed),
+        "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
+    }
+
+
+def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, float]) -> str | None:
+    """Steady when the slowest mode, exp(-pi^2 nu t / L^2), is below 1e-12."""
+    decayed = np.exp(-(np.pi**2) * KINEMATIC_VISCOSITY * flow.time / GAP**2) < STEADY
+    return "steady" if decayed else None
+
+
+COUETTE = FlowCase(
+    name="couette",
+    summary="plane Couette flow from rest, against its start-up series",
+    defaults={"reynolds": 1.0, "resolution": 20},
+    problem=problem,
+    exact=exact,
+    time_unit=lambda settings: GAP**2 / KINEMATIC_VISCOSITY,
+    time_name="t nu / L^2",
+    metrics=metrics,
+    ended=ended,
+)

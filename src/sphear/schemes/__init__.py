@@ -1,0 +1,1 @@
+"""Schemes: the order in which sweeps are made in a time step."""
