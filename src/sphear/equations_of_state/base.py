@@ -1,0 +1,56 @@
+"""What all equations of state share: pressure and speed of sound from the density, and the way back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from sphear.algebra import Scalar
+from sphear.errors import SphearError
+
+
+@dataclass(frozen=True)
+class EquationOfState:
+    """The pressure p of a fluid of density rho, and of specific internal energy e where `uses_energy` says so.
+
+    Densities are in kg/m^3, pressures in Pa, energies in J/kg and speeds in m/s, or in any other consistent units.
+    """
+
+    name: ClassVar[str]
+    aliases: ClassVar[tuple[str, ...]] = ()
+    formula: ClassVar[str]
+    source: ClassVar[str]
+    uses_energy: ClassVar[bool] = False  # else the pressure is a function of the density alone
+
+    def pressure(self, density: Scalar, energy: Scalar = None) -> Scalar:
+        """p."""
+        raise NotImplementedError
+
+    def sound_speed(self, density: Scalar, energy: Scalar = None) -> Scalar:
+        """c, with c^2 = dp/drho at constant entropy."""
+        raise NotImplementedError
+
+    def density(self, pressure: Scalar, energy: Scalar = None) -> Scalar:
+        """The rho that has this pressure."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Barotropic(EquationOfState):
+    """A pressure that the density alone decides, zero at the reference density; an energy is ignored.
+
+    Args:
+        rho0: the reference density, where the pressure is zero, in kg/m^3.
+        c0: the speed of sound at the reference density, in m/s.
+
+    Raises:
+        SphearError: rho0 or c0 is not a positive number.
+    """
+
+    rho0: float
+    c0: float
+
+    def __post_init__(self) -> None:
+        for what, value in (("reference density rho0", self.rho0), ("speed of sound c0", self.c0)):
+            if not 0 < value < float("inf"):
+                raise SphearError(f"the {what} must be positive, not {value}")
