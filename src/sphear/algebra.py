@@ -133,20 +133,24 @@ def adjugate(a: Matrix) -> Matrix:
 
 
 def solve(a: Matrix, b: Vector) -> tuple[Scalar, Vector]:
-    """The smallest pivot over the largest, and x with A x = b, by elimination without exchanges of rows.
+    """The smallest pivot, and x with A x = b, by elimination with exchanges of rows, without branches.
 
-    For the nearly isotropic moments of a neighbourhood, which need none; where they are singular the pivot ratio says
-    so (it is then of the order of rounding, or negative) and x is zero.
+    Where A is singular the smallest pivot is of the order of rounding, of what A is made of; it is for the caller to
+    compare it with that. Where it is zero, x is finite and means nothing.
     """
     size = len(b)
     rows = [[*row, right] for row, right in zip(a, b, strict=True)]
     smallest: Scalar = None
-    largest: Scalar = None
     for k in range(size):
+        for row in rows[k + 1 :]:
+            upper, lower = _magnitude(rows[k][k]), _magnitude(row[k])
+            for column in range(k, size + 1):
+                x, y = rows[k][column], row[column]
+                rows[k][column] = where_less(upper, lower, y, x)
+                row[column] = where_less(upper, lower, x, y)
         pivot = rows[k][k]
-        magnitude = where_less(pivot, 0.0, -pivot, pivot)
+        magnitude = _magnitude(pivot)
         smallest = magnitude if smallest is None else where_less(magnitude, smallest, magnitude, smallest)
-        largest = magnitude if largest is None else where_less(largest, magnitude, magnitude, largest)
         inverse = where_less(0.0, magnitude, 1.0 / where_less(0.0, magnitude, pivot, 1.0), 0.0)
         for row in rows[k + 1 :]:
             factor = row[k] * inverse
@@ -159,4 +163,8 @@ def solve(a: Matrix, b: Vector) -> tuple[Scalar, Vector]:
         for column in range(k + 1, size):
             value = value - rows[k][column] * solution[column]
         solution[k] = value
-    return where_less(0.0, largest, smallest / where_less(0.0, largest, largest, 1.0), 0.0), tuple(solution)
+    return smallest, tuple(solution)
+
+
+def _magnitude(x: Scalar) -> Scalar:
+    return where_less(x, 0.0, -x, x)

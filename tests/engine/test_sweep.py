@@ -81,13 +81,14 @@ def neighbours(dimension: int, domain: str, threads: int) -> Neighbours:
     return Neighbours(*places(dimension, domain)[:1], SUPPORT, places(dimension, domain)[1], threads=threads)
 
 
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize(("dtype", "once"), [("float64", False), ("float32", False), ("float64", True)])
 @pytest.mark.parametrize("domain", DOMAINS)
 @pytest.mark.parametrize("dimension", [1, 2, 3])
-def test_a_sweep_is_the_sum_over_all_pairs(dimension: int, domain: str, dtype: str) -> None:
+def test_a_sweep_is_the_sum_over_all_pairs(dimension: int, domain: str, dtype: str, once: bool) -> None:
     positions, limits = places(dimension, domain)
     fields = fields_of(len(positions), dimension)
-    found = sweep(Probe(WendlandC2(H), 1.7), neighbours(dimension, domain, 1), dtype=dtype, **fields)
+    pairs = neighbours(dimension, domain, 1)
+    found = sweep(Probe(WendlandC2(H), 1.7), pairs, dtype=dtype, each_pair_once=once, **fields)
     assert found.dtype == dtype
     theirs = expected(positions, limits, fields, 1.7)
     np.testing.assert_allclose(found, theirs, rtol=0, atol=TOLERANCE[dtype] * np.abs(theirs).max())
@@ -159,8 +160,9 @@ class DifferentComponents(Sum):
         return (w * own.field[self.own_first] * own.field[self.own_second] * other.field[self.of_other] * own.mass,)
 
 
-@pytest.mark.parametrize("components", [(0, 1, 0), (0, 0, 1), (0, 2, 1), (1, 2, 0), (0, 1, 2), (0, 3, 2), (2, 3, 0)])
-def test_own_and_other_may_use_different_components_of_a_field(components: tuple[int, int, int]) -> None:
+@pytest.mark.parametrize("once", [False, True])
+@pytest.mark.parametrize("components", [(0, 0, 1), (0, 2, 1), (0, 3, 2), (2, 3, 0)])
+def test_own_and_other_may_use_different_components_of_a_field(components: tuple[int, int, int], once: bool) -> None:
     positions = lattice((3, 4))
     generator = np.random.default_rng(5)
     field, mass = generator.random((12, 4)), generator.random(12)
@@ -168,5 +170,5 @@ def test_own_and_other_may_use_different_components_of_a_field(components: tuple
     i, j, d = all_pairs(positions, SUPPORT)
     total = summed(i, wendland_c2(np.linalg.norm(d, axis=1), 2) * field[j, of_other], 12)
     interaction = DifferentComponents(WendlandC2(H), first, second, of_other)
-    found = sweep(interaction, Neighbours(positions, SUPPORT), field=field, mass=mass)[:, 0]
+    found = sweep(interaction, Neighbours(positions, SUPPORT), each_pair_once=once, field=field, mass=mass)[:, 0]
     assert found == pytest.approx(field[:, first] * field[:, second] * total * mass)

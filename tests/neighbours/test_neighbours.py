@@ -170,9 +170,9 @@ def test_three_particles_in_one_place_are_refused() -> None:
         Neighbours(np.array([[1.0, 1.0], [0.0, 0.0], [1.0, 1.0], [1.0, 1.0]]), 0.5)
 
 
-@pytest.mark.parametrize("threads", [0, -1])
-def test_at_least_one_thread(threads: int) -> None:
-    with pytest.raises(SphearError, match=f"threads must be at least 1, not {threads}"):
+@pytest.mark.parametrize("threads", [0, -1, 1.5, "2"])
+def test_at_least_one_thread(threads: Any) -> None:
+    with pytest.raises(SphearError, match=f"threads must be a whole number of at least 1, not {threads!r}"):
         Neighbours(lattice((2, 2)), 1.5, threads=threads)
 
 

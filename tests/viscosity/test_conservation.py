@@ -203,7 +203,8 @@ def test_bulk_viscosities_with_which_espanol_and_revenga_dissipate_in_the_plane(
         for u in (np.array([[1.0, 0.0], [0.0, 0.0]]), np.array([[0.0, 1.0], [0.0, 0.0]]))
     ]
     assert bool(max(gains) <= 0.0) is dissipates
-    assert (fluid(True, True).gain(EspanolRevenga(bulk=bulk)) < 1e-13) is dissipates
+    if dissipates:  # outside of these bounds some pairs gain, but not always all together
+        assert fluid(True, True).gain(EspanolRevenga(bulk=bulk)) < 1e-13
 
 
 def test_with_a_bulk_viscosity_of_five_thirds_espanol_and_revenga_keep_angular_momentum() -> None:

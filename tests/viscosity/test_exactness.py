@@ -129,3 +129,42 @@ def test_exact_on_particles_at_random() -> None:
         assert np.isfinite(found).mean() > 0.97
         known = inside & np.isfinite(found)
         np.testing.assert_allclose(found[known], exact[known], atol=1e-6 * scale_of(f, positions))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_particles_with_many_neighbours_are_never_too_few_for_fatehi_and_manzari(dimension: int) -> None:
+    """Whatever the places, elimination must not come across a small pivot that is not there in the system itself."""
+    for seed in range(60):
+        positions, arguments = cloud(dimension, 0.5, seed)
+        f, exact = polynomial(positions, 2, seed)
+        found = laplacian(positions, f, viscosity="fatehi_manzari", **arguments | {"kernel": CubicSpline(2.0)})
+        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-9 * scale_of(f, positions))
+
+
+@pytest.mark.parametrize("viscosity", ["fatehi_manzari", "least_squares"])
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+def test_two_or_three_neighbours_are_too_few(viscosity: str, precision: str) -> None:
+    """Then the moments cancel to rounding, which must not be mistaken for a small but sound system."""
+    generator = np.random.default_rng(0)
+    clusters = [8.0 * k + generator.random((3 + k % 2, 2)) for k in range(60)]
+    positions = np.concatenate(clusters)
+    found = laplacian(
+        positions, positions[:, 0] ** 2, viscosity=viscosity, kernel=CubicSpline(1.5), volumes=0.3, fallback="nan",
+        precision=precision,
+    )  # fmt: skip
+    assert np.isnan(found).all()
+
+
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+def test_what_is_not_refused_is_right_to_some_digits(precision: str) -> None:
+    """Near the edges some fits of degree 4 are nearly singular, in single precision more of them."""
+    positions = jittered((12, 12), 0.5, 1)
+    f, exact = polynomial(positions, 2, 1)
+    found = laplacian(
+        positions, f, viscosity="least_squares_4", kernel=CubicSpline(1.8), volumes=1.0, fallback="nan",
+        precision=precision,
+    )  # fmt: skip
+    known = np.isfinite(found)
+    assert known.mean() > 0.9
+    tolerance = 1e-6 if precision == "float64" else 0.05
+    np.testing.assert_allclose(found[known], exact[known], atol=tolerance * scale_of(f, positions))

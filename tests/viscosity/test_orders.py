@@ -53,8 +53,8 @@ def error(viscosity: str, correction: str, n: int, jitter: float, seeds: int) ->
         waves = np.sin(positions @ WAVES.T + 0.4)
         exact = -waves @ (WAVES**2).sum(axis=1)
         found = laplacian(
-            positions, waves.sum(axis=1), viscosity=viscosity, correction=correction, kernel=CubicSpline(H_OVER_DX * dx),
-            volumes=dx * dx, fallback="nan",
+            positions, waves.sum(axis=1), viscosity=viscosity, correction=correction,
+            kernel=CubicSpline(H_OVER_DX * dx), volumes=dx * dx, fallback="nan",
         )  # fmt: skip
         errors.append(np.abs(found - exact)[sample].sum() / np.abs(exact)[sample].sum())
     return float(np.mean(errors))

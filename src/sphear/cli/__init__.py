@@ -2,67 +2,45 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
-from typing import Any
 
-import typer
-
-from sphear.cli.listing import list_names
-from sphear.cli.patch_test import patch_test
-from sphear.cli.reproduce import reproduce
-from sphear.cli.show import show
 from sphear.errors import SphearError
-
-# what Typer raises for wrong options; it is not under a public name of its own
-_UsageError: Any = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
-
-app = typer.Typer(
-    name="sphear",
-    help="Viscous flow with smoothed particle hydrodynamics: every published viscous term, exchangeable.",
-    no_args_is_help=True,
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-app.command("list")(list_names)
-app.command("show")(show)
-app.command("patch-test")(patch_test)
-app.command("reproduce")(reproduce)
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        from sphear import __version__
-
-        typer.echo(__version__)
-        raise typer.Exit
-
-
-@app.callback()
-def _options(
-    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="The version."),
-) -> None:
-    pass
 
 
 def main() -> None:
     """Run the command line: a user's mistake is one sentence on stderr and exit status 2."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal that lacks a letter shows another one
     try:
-        status = app(standalone_mode=False, prog_name="sphear")
+        from sphear.cli.app import run  # takes a moment, in which Ctrl-C may come too
+
+        status = run()
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except SphearError as error:
         _fail(str(error), 2)
-    except _UsageError as error:
-        text = error.format_message()
-        _fail(text[:1].lower() + text[1:].rstrip("."), 2) if text else sys.exit(2)
-    except (KeyboardInterrupt, typer.Abort):
+    except KeyboardInterrupt:
+        exec("")  # without it Python, where Ctrl-C came while it ran text, would end by the signal, not by the status
         _fail("interrupted; nothing half-written is left", 130)
+    except MemoryError:
+        _fail("there is not enough memory for this", 1)
     except BrokenPipeError:  # the reader, such as `head`, has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _discard_output()
         sys.exit(1)
+    except OSError as error:
+        _discard_output()
+        _fail(f"{error.filename or 'the output'} cannot be used: {error.strerror or error}", 1)
     else:
-        sys.exit(status if isinstance(status, int) else 0)
+        sys.exit(status)
+
+
+def _discard_output() -> None:
+    """Nothing more goes to stdout, what is still held back included."""
+    if sys.stdout is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _fail(sentence: str, status: int) -> None:

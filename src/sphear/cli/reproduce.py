@@ -31,7 +31,8 @@ def reproduce(
         if not as_json:
             print_tables([table for table in result.tables if table.title not in shown])
             shown.update(table.title for table in result.tables)
-            print_text(f"{paper} {name}\n  The paper: {result.claim}.\n  Found: {result.finding}.\n  Agrees: {result.agrees}.\n")
+            said = f"  The paper: {result.claim}.\n  Found: {result.finding}.\n  Agrees: {result.agrees}.\n"
+            print_text(f"{paper} {name}\n{said}")
     if as_json:
         print_json(results[0] if len(results) == 1 else results)
     elif files is not None:

@@ -13,11 +13,11 @@ from sphear.cli.output import print_json, print_text
 
 def show(
     kind: str = typer.Argument(..., metavar="KIND", help="kernels, viscosity, corrections, studies or cases."),
-    name: str = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
+    name: list[str] = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),
 ) -> None:
     """Show formula, source and measured properties of one thing."""
-    facts = described(kind_of(kind), name)
+    facts = described(kind_of(kind), " ".join(name))
     if as_json:
         print_json(facts)
     elif facts["kind"] == "viscosity":

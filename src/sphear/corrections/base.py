@@ -35,6 +35,10 @@ class Correction:
         """The corrected gradient of W with respect to the first particle's position."""
         raise NotImplementedError
 
+    def gradient_at_zero(self, kernel: Kernel, prepared: Any, dimension: int) -> Vector | None:
+        """The corrected gradient of W at r = 0, which a particle adds to its own sums; None where it is zero."""
+        return None
+
     def hessian(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Matrix:
         """The corrected second derivatives of W."""
         raise NotImplementedError

@@ -75,6 +75,10 @@ class BonetLok(Correction):
         """Eq. 26: L grad W^[0]."""
         return apply(prepared.matrix, Shepard().gradient(kernel, prepared.shepard, d, r2))
 
+    def gradient_at_zero(self, kernel: Kernel, prepared: BonetLokSums, dimension: int) -> Vector:
+        """Eq. 26 at r = 0."""
+        return apply(prepared.matrix, Shepard().gradient_at_zero(kernel, prepared.shepard, dimension))
+
     def hessian(self, kernel: Kernel, prepared: BonetLokSums, d: Vector, r2: Scalar) -> Matrix:
         """Eq. 23."""
         return Shepard().hessian(kernel, prepared.shepard, d, r2)

@@ -75,6 +75,10 @@ class Shepard(Correction):
         part = scale(kernel.value(r2, len(d)) / prepared.one, prepared.gradient)
         return scale(1.0 / prepared.one, subtract(kernel.gradient(d, r2), part))
 
+    def gradient_at_zero(self, kernel: Kernel, prepared: ShepardSums, dimension: int) -> Vector:
+        """Eq. 22 at r = 0, where grad W is zero but grad <1> is not."""
+        return scale(-kernel.value_at_zero(dimension) / prepared.one**2, prepared.gradient)
+
     def hessian(self, kernel: Kernel, prepared: ShepardSums, d: Vector, r2: Scalar) -> Matrix:
         """Eq. 23."""
         s, grad_s, w, grad_w = 1.0 / prepared.one, prepared.gradient, kernel.value(r2, len(d)), kernel.gradient(d, r2)

@@ -68,8 +68,10 @@ class Sweep:
     def _packed(self) -> Array:
         neighbours, formula = self.neighbours, self.formula
         records = empty_records(len(neighbours.source), neighbours.dimension + len(formula.columns), self.dtype)
+        # from some particle in their midst, so that single precision spends no digits on a common offset
+        coordinates = neighbours.coordinates[:, : len(records)]
         for axis in range(neighbours.dimension):
-            records[:, axis] = neighbours.coordinates[axis, : len(records)]
+            records[:, axis] = coordinates[axis] - coordinates[axis, len(records) // 2]
         column = neighbours.dimension
         # columns of one field with components that follow each other are packed by one copy
         for (name, _), run in groupby(enumerate(formula.columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
+from numbers import Integral
 from typing import TypeVar
 
 from sphear.errors import SphearError
@@ -20,9 +21,9 @@ def thread_count(threads: int | None, particles: int) -> int:
     """The number of threads to use: as asked, or all processors where there is enough work for them."""
     if threads is None:
         return max(1, min(_processors(), particles // WORTH_A_THREAD))
-    if threads < 1:
-        raise SphearError(f"threads must be at least 1, not {threads}")
-    return threads
+    if not isinstance(threads, Integral) or threads < 1:
+        raise SphearError(f"threads must be a whole number of at least 1, not {threads!r}")
+    return int(threads)
 
 
 def _processors() -> int:

@@ -21,16 +21,18 @@ Precision = Literal["float64", "float32"]
 SUPPORT_OVER_DX = 2 / 0.637  # about 30 neighbours in 2-D (Basa, Quinlan & Lastiwka 2009, section 6)
 
 
-def read_positions(positions: ArrayLike, domain: Domain | None) -> Array:
+def read_positions(positions: ArrayLike, domain: Domain | None, name: str = "positions") -> Array:
     """Positions as an array (N, d) of finite numbers, d = 1 to 3, that agrees with the domain."""
-    array = _numbers(positions, "positions")
+    array = _numbers(positions, name)
     if array.ndim != 2 or array.shape[1] not in (1, 2, 3):
-        raise SphearError(f"positions must have the shape (N, d) with d = 1, 2 or 3, not {array.shape}")
+        raise SphearError(f"{name} must have the shape (N, d) with d = 1, 2 or 3, not {array.shape}")
     if not len(array):
-        raise SphearError("positions must hold at least one particle")
-    _finite(array, "positions")
+        raise SphearError(f"{name} must hold at least one place")
+    _finite(array, name)
+    if not (domain is None or isinstance(domain, Domain)):
+        raise SphearError(f"the domain must be a Domain or None, not {domain!r}")
     if domain is not None and domain.dimension != array.shape[1]:
-        raise SphearError(f"the domain has {domain.dimension} axes but the positions have {array.shape[1]}")
+        raise SphearError(f"the domain has {domain.dimension} axes but {name} has {array.shape[1]}")
     return array
 
 
@@ -81,9 +83,7 @@ def read_kernel(kernel: str | Kernel, h_over_dx: float | None, spacing: float) -
             raise SphearError(f"{kernel!r} has its own h: h_over_dx goes with a kernel's name")
         return kernel
     kind = KERNELS[kernel]
-    ratio = SUPPORT_OVER_DX / kind.support if h_over_dx is None else float(h_over_dx)
-    if not 0 < ratio < np.inf:
-        raise SphearError(f"h_over_dx must be positive, not {h_over_dx}")
+    ratio = SUPPORT_OVER_DX / kind.support if h_over_dx is None else _positive(h_over_dx, "h_over_dx")
     return kind(ratio * spacing)
 
 
@@ -94,9 +94,7 @@ def read_spacing(spacing: float | None, positions: Array, volumes: Array | None,
     """
     count, dimension = positions.shape
     if spacing is not None:
-        if not 0 < spacing < np.inf:
-            raise SphearError(f"the particle spacing must be positive, not {spacing}")
-        return float(spacing)
+        return _positive(spacing, "the particle spacing")
     if volumes is not None:
         return float(volumes.mean() ** (1 / dimension))
     if domain is not None and len(domain.periodic_axes) == dimension:
@@ -122,11 +120,26 @@ def read_precision(precision: str) -> str:
     return precision
 
 
+def _positive(value: float, name: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = np.nan
+    if not 0 < number < np.inf:
+        raise SphearError(f"{name} must be a positive number, not {value!r}")
+    return number
+
+
 def _numbers(values: ArrayLike, name: str) -> Array:
     try:
-        return np.ascontiguousarray(values, dtype=np.float64)
+        array = np.asarray(values)
+        if array.dtype.kind not in "biufO":  # text, dates and complex numbers would be converted without a word
+            raise TypeError
+        return np.ascontiguousarray(array, dtype=np.float64)
     except (TypeError, ValueError):
-        raise SphearError(f"{name} must be an array of numbers, which {type(values).__name__} is not") from None
+        raise SphearError(
+            f"{name} must be an array of real numbers, which this {type(values).__name__} is not"
+        ) from None
 
 
 def _finite(array: Array, name: str) -> None:

@@ -75,8 +75,9 @@ class Particles:
         """The Laplacian of each column of values (N, k)."""
         if not hasattr(term, "laplacian_stages"):
             raise SphearError(
-                f"viscosity {term.name!r} cannot act on scalar fields: its pair force points along the line of centres,"
-                f" so it needs a velocity; use viscous_acceleration, or a term that is a Laplacian of each component"
+                f"viscosity {term.name!r} cannot act on scalar fields: its pair force has a part along the line of"
+                f" centres, so it needs a velocity; use viscous_acceleration, or a term that is a Laplacian of each"
+                f" component"
             )
         fields = {"values": values}
         return self._apply(term, correction, fields, fallback, "laplacian_stages")

@@ -62,8 +62,9 @@ class Preparation:
         self.sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
         if hasattr(self.interaction, "solve"):
             out = self.interaction.solve(out, self.dimension).astype(self.sweep.dtype, copy=False)
-        # the first number is the quality; written so that a NaN is deficient too
-        return out, np.flatnonzero(~(out[:, 0] > self.interaction.least_quality))
+        # the first number is the quality, of which rounding of the sums leaves some digits; a NaN is deficient too
+        least = max(self.interaction.least_quality, 100 * float(np.finfo(self.sweep.dtype).eps))
+        return out, np.flatnonzero(~(out[:, 0] > least))
 
 
 def _unprepared(

@@ -203,9 +203,9 @@ def interpolate(
     count = len(particles.positions)
     field = arguments.read_field(values, "values", count)
     chosen = arguments.read_correction(correction)
-    points = particles.positions if at is None else arguments.read_positions(at, domain)
+    points = particles.positions if at is None else arguments.read_positions(at, domain, "at")
     if points.shape[1] != particles.positions.shape[1]:
-        raise SphearError(f"the points have {points.shape[1]} axes but the positions {particles.positions.shape[1]}")
+        raise SphearError(f"at has {points.shape[1]} axes but positions has {particles.positions.shape[1]}")
     # the points become particles of no volume, which add nothing to any sum
     everywhere = np.concatenate((particles.positions, points))
     neighbours = Neighbours(everywhere, particles.kernel.radius, domain, threads=threads, keep_coincident=True)

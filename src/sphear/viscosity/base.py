@@ -24,7 +24,7 @@ class ViscousTerm:
     aliases: ClassVar[tuple[str, ...]] = ()
     formula: ClassVar[str]
     source: ClassVar[str]
-    radial: ClassVar[bool] = False  # the pair force points along the line of centres: no Laplacian of a scalar
+    radial: ClassVar[bool] = False  # the pair force has a part along the line of centres: no Laplacian of a scalar
     own_correction: ClassVar[bool] = False  # carries a correction of its own and takes no other
     uses_second_derivatives: ClassVar[bool] = False
     varies_viscosity: ClassVar[bool] = False  # the formula has a rule for a viscosity that varies in space

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from sphear.algebra import Matrix, Scalar, Vector, apply, dot, scale, solve, transpose
+from sphear.algebra import Matrix, Scalar, Vector, apply, dot, scale, solve, trace, transpose, where_less
 from sphear.corrections import Correction
 from sphear.corrections.renormalised import LEAST_QUALITY, safe_inverse
 from sphear.kernels import Kernel
@@ -57,7 +57,8 @@ class FatehiManzariPreparation:
         def component(tensor: dict[tuple[int, ...], Scalar], *indices: int) -> Scalar:
             return tensor[tuple(indices.count(axis) for axis in axes)]
 
-        quality, gamma = safe_inverse(tuple(tuple(component(second, a, b) for b in axes) for a in axes))
+        moment = tuple(tuple(component(second, a, b) for b in axes) for a in axes)
+        quality, gamma = safe_inverse(moment)
         pairs = index_pairs(size)
 
         def first_order_error(a: int, b: int) -> Vector:
@@ -79,7 +80,12 @@ class FatehiManzariPreparation:
         q = tuple(
             sum((2.0 * tensor[m][n] * component(third_r, m, n, k) for m in axes for n in axes), 0.0) for k in axes
         )
-        return FatehiManzariMoments(quality * pivot, tensor, apply(transpose(gamma), q))
+        # B : A cancels to rounding where neighbours are too few; what it is made of has the size of tr(sum V g d d)
+        size_of_moments = trace(moment)
+        quality = quality * where_less(
+            0.0, size_of_moments, pivot / where_less(0.0, size_of_moments, size_of_moments, 1.0), 0.0
+        )
+        return FatehiManzariMoments(quality, tensor, apply(transpose(gamma), q))
 
 
 @dataclass(frozen=True, repr=False)

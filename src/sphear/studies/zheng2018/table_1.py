@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sphear.references.zheng2018 import TABLE_1
-from sphear.studies.result import Progress, StudyResult
+from sphear.studies.result import Agreement, Progress, StudyResult
 from sphear.studies.zheng2018 import printed
 from sphear.studies.zheng2018.patch import compared, error_table, last, settings
 
@@ -31,6 +31,6 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
         f" {order['gotoh']:+.2f}), and VISC-03 and VISC-04 converge with order {second:.2f}; eq. 16 as printed is off"
         f" by {last(other, printed.NAME, 'l1_relative'):.0%}"
     )
-    agrees = "yes" if not stalled else "partly" if second > 1.9 else "no"
+    agrees: Agreement = "yes" if not stalled else "partly" if second > 1.9 else "no"
     table = error_table("Table 1 of Zheng, Ma & Shao 2018: errors on a lattice", rows)
-    return StudyResult(CLAIM, finding, agrees, rows, [table], other_readings=other)  # type: ignore[arg-type]
+    return StudyResult(CLAIM, finding, agrees, rows, [table], other_readings=other)

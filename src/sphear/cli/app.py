@@ -1,0 +1,65 @@
+"""The commands as one Typer application."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from sphear.cli.listing import list_names
+from sphear.cli.patch_test import patch_test
+from sphear.cli.reproduce import reproduce
+from sphear.cli.show import show
+from sphear.errors import SphearError
+
+# what Typer raises for wrong options; it is not under a public name of its own
+_UsageError: Any = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+_INTERRUPTED = 130  # what Typer makes of Ctrl-C
+
+app = typer.Typer(
+    name="sphear",
+    help="Viscous flow with smoothed particle hydrodynamics: every published viscous term, exchangeable.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("list")(list_names)
+app.command("show")(show)
+app.command("patch-test")(patch_test)
+app.command("reproduce")(reproduce)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from sphear import __version__
+
+        typer.echo(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: bool = typer.Option(False, "--version", callback=_version, is_eager=True, help="The version."),
+) -> None:
+    pass
+
+
+def run() -> int:
+    """Run the command that the arguments ask for; its exit status.
+
+    Raises:
+        SphearError: a user's mistake, wrong options included.
+        KeyboardInterrupt: Ctrl-C.
+    """
+    try:
+        status = app(standalone_mode=False, prog_name="sphear")
+    except _UsageError as error:
+        text = error.format_message().rstrip(".")
+        where = f" (see {error.ctx.command_path} --help)" if getattr(error, "ctx", None) else ""
+        raise SphearError(f"{text[:1].lower()}{text[1:]}{where}") from None
+    except typer.Abort:
+        raise KeyboardInterrupt from None
+    if status == _INTERRUPTED:
+        raise KeyboardInterrupt
+    return status if isinstance(status, int) else 0
