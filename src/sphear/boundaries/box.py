@@ -44,7 +44,7 @@ class Box:
         return self.sides.index("walls") if "walls" in self.sides else -1
 
     def arrays(self) -> tuple[Array, Array, Array, Array]:
-        """Lower and upper corner, the kinds of sides, and the walls' velocities, (2, d), as compiled code takes them."""
+        """Lower and upper corner, the kinds of sides and the walls' velocities, (2, d), for compiled code."""
         kinds = np.array([WALLS if side == "walls" else PERIODIC for side in self.sides])
         velocities = np.array([self.lower_velocity, self.upper_velocity], np.float64)
         return np.array(self.lower, np.float64), np.array(self.upper, np.float64), kinds, velocities

@@ -9,6 +9,7 @@ import typer
 from sphear.cli.listing import list_names
 from sphear.cli.patch_test import patch_test
 from sphear.cli.reproduce import reproduce
+from sphear.cli.run import run as run_case
 from sphear.cli.show import show
 from sphear.errors import SphearError
 
@@ -28,6 +29,7 @@ app.command("list")(list_names)
 app.command("show")(show)
 app.command("patch-test")(patch_test)
 app.command("reproduce")(reproduce)
+app.command("run")(run_case)
 
 
 def _version(wanted: bool) -> None:

@@ -8,4 +8,14 @@ from sphear.interactions.momentum import Momentum
 from sphear.interactions.reduced_momentum import ReducedMomentum
 from sphear.interactions.viscous_acceleration import ViscousAcceleration
 
-__all__ = ["Divergence", "Gradient", "Interpolation", "Laplacian", "Momentum", "NumberDensity", "ReducedMomentum", "SummationDensity", "ViscousAcceleration"]
+__all__ = [
+    "Divergence",
+    "Gradient",
+    "Interpolation",
+    "Laplacian",
+    "Momentum",
+    "NumberDensity",
+    "ReducedMomentum",
+    "SummationDensity",
+    "ViscousAcceleration",
+]

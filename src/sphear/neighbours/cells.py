@@ -57,7 +57,7 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
     inverse = 1.0 / size
     # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
     strides = np.ones(dimension, np.int64)  # the first axis runs fastest
-    cells, border = 1, 0
+    cells, border = np.int64(1), np.int64(0)
     for axis in range(dimension):
         strides[axis] = cells
         border += REACH * cells

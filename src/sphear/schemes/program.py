@@ -44,8 +44,8 @@ from sphear.neighbours.cells import sorted_cells
 
 
 @njit({options})
-def rates(x, v, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support, state, constants, table,
-          index, right, density, pressure, acceleration):
+def rates(x, v, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support, state, constants,
+          table, index, right, density, pressure, acceleration):
     """Density, pressure and acceleration of the particles; False where a correction cannot be computed."""
     count, dimension = x.shape
     positions, source, wall, depth = with_images(x, lower, upper, kinds, {layers} * support)
@@ -122,8 +122,8 @@ def advance(x, v, dt, steps, fastest, mass, viscosity, force, lower, upper, kind
             for k in range(dimension):
                 x_half[i, k] = x[i, k] + 0.5 * dt * v[i, k]
                 v_half[i, k] = v[i, k] + 0.5 * dt * acceleration[i, k]
-        if not rates(x_half, v_half, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support, state,
-                     constants, table, index, right, density, pressure, acceleration):
+        if not rates(x_half, v_half, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support,
+                     state, constants, table, index, right, density, pressure, acceleration):
             return step, 1
         square = 0.0
         outside = False
@@ -167,7 +167,11 @@ def loop_module(
         wall_velocity: a name of `WALL_VELOCITIES`.
     """
     sweeps = _Sweeps(dimension)
-    density_text = [*sweeps.text(density, (), "nothing", "found"), "for i in range(count):", "    density[i] = found[i, 0]"]
+    density_text = [
+        *sweeps.text(density, (), "nothing", "found"),
+        "for i in range(count):",
+        "    density[i] = found[i, 0]",
+    ]
     preparation_text, own = sweeps.preparation(preparation)
     stage_text: list[str] = []
     for number, stage in enumerate(stages):
@@ -258,5 +262,3 @@ class _Sweeps:
         zeros = (0.0,) * self.dimension
         scalars = tuple((name, 0.0) for name in _COLUMNS if name not in ("velocity", "before"))
         return traced(interaction, self.dimension, (*scalars, ("velocity", zeros), *self.before), own)
-
-

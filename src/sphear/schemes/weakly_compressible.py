@@ -10,7 +10,7 @@ import numpy as np
 
 from sphear.boundaries import WALL_VELOCITIES, Box
 from sphear.engine.structure import parameters
-from sphear.equations_of_state import EQUATIONS_OF_STATE
+from sphear.equations_of_state import BatchelorTait, Linear
 from sphear.errors import SphearError
 from sphear.interactions import ReducedMomentum, SummationDensity
 from sphear.neighbours.pair_list import selection_table_once
@@ -88,7 +88,8 @@ class WeaklyCompressible:
         self._check_walls()
         self.sound_speed = settings.sound_speed or morris_sound_speed(problem)
         self.time_step = self._time_step()
-        equation = EQUATIONS_OF_STATE[settings.equation_of_state](problem.density, self.sound_speed)
+        stiff = settings.equation_of_state == "batchelor_tait"
+        equation = (BatchelorTait if stiff else Linear)(problem.density, self.sound_speed)
         count, dimension = self.positions.shape
         self.density, self.pressure = np.full(count, problem.density), np.zeros(count)
 

@@ -76,7 +76,9 @@ class FlowRun:
         horizon = min(planned / self.flow.time_step, self.settings.max_steps)
         every = int(np.clip(horizon / OUTPUTS, 1, 1000))
         while not self.end:
-            left = min(self.settings.max_steps - self.flow.steps, np.ceil((planned - self.flow.time) / self.flow.time_step))
+            left = min(
+                self.settings.max_steps - self.flow.steps, np.ceil((planned - self.flow.time) / self.flow.time_step)
+            )
             began = time.perf_counter()
             try:
                 self.flow.advance(int(min(every, max(1, left))))
