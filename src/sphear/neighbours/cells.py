@@ -61,7 +61,7 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
     for axis in range(dimension):
         strides[axis] = cells
         border += REACH * cells
-        cells *= np.int64(extent[axis] * inverse) + 1 + 2 * REACH
+        cells = cells * np.int64(extent[axis] * inverse + 1 + 2 * REACH)
 
     cell = np.empty(entries, np.int32)
     start = np.zeros(cells + 1, np.int64)

@@ -19,7 +19,7 @@ HALF_WIDTH, KINEMATIC_VISCOSITY, DENSITY = 0.5, 1.0, 1.0  # of the paper, in SI 
 FAILED = 0.12  # RMS error, the paper's threshold
 # spacings that the shear layer at the wall must be thick before the error is judged: a relative error of a flow that
 # the particles cannot resolve yet says nothing of them
-RESOLVED = 2.0
+RESOLVED = 4.0
 STEADY = 1e-12
 
 
