@@ -71,8 +71,8 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
             number += np.int64((positions[entry, axis] - lower[axis]) * inverse) * strides[axis]
         cell[entry] = number
         start[number + 1] += 1
-    for before in range(cells):
-        start[before + 1] += start[before]
+    for number_before in range(cells):
+        start[number_before + 1] += start[number_before]
 
     following = start[:-1].copy()
     coordinates = np.full((dimension, entries + PADDING), np.inf)
