@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import Any, Literal
 
 import numpy as np
@@ -24,17 +25,34 @@ class Box:
         lower: the lower corner.
         upper: the upper corner.
         sides: "periodic" or "walls", one an axis; walls along one axis at most.
-        lower_velocity: of the wall at the lower end.
-        upper_velocity: of the wall at the upper end.
+        lower_velocity: of the wall at the lower end; () is at rest.
+        upper_velocity: of the wall at the upper end; () is at rest.
+
+    Raises:
+        SphearError: the corners, sides and velocities do not belong together.
     """
 
     lower: tuple[float, ...]
     upper: tuple[float, ...]
     sides: tuple[Side, ...]
-    lower_velocity: tuple[float, ...] = (0.0, 0.0)
-    upper_velocity: tuple[float, ...] = (0.0, 0.0)
+    lower_velocity: tuple[float, ...] = ()
+    upper_velocity: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        dimension = len(self.lower)
+        if not len(self.upper) == len(self.sides) == dimension:
+            raise SphearError(
+                f"a box has as many corner coordinates as sides, not {dimension}, {len(self.upper)} and"
+                f" {len(self.sides)}"
+            )
+        if not all(-inf < low < high < inf for low, high in zip(self.lower, self.upper, strict=True)):
+            raise SphearError(f"the upper corner of a box lies beyond the lower one, not {self.upper} and {self.lower}")
+        for side in self.sides:
+            if side not in ("periodic", "walls"):
+                raise SphearError(f"the sides of a box are 'periodic' or 'walls', not {side!r}")
+        for velocity in (self.lower_velocity, self.upper_velocity):
+            if velocity and len(velocity) != dimension:
+                raise SphearError(f"the velocity of a wall has {dimension} components, not {len(velocity)}")
         if self.sides.count("walls") > 1:
             raise SphearError("a box has walls along one axis at most: mirror particles know no corners")
 
@@ -46,7 +64,8 @@ class Box:
     def arrays(self) -> tuple[Array, Array, Array, Array]:
         """Lower and upper corner, the kinds of sides and the walls' velocities, (2, d), for compiled code."""
         kinds = np.array([WALLS if side == "walls" else PERIODIC for side in self.sides])
-        velocities = np.array([self.lower_velocity, self.upper_velocity], np.float64)
+        at_rest = (0.0,) * len(self.lower)
+        velocities = np.array([self.lower_velocity or at_rest, self.upper_velocity or at_rest], np.float64)
         return np.array(self.lower, np.float64), np.array(self.upper, np.float64), kinds, velocities
 
 
@@ -61,10 +80,7 @@ def with_images(x, lower, upper, kinds, reach):  # type: ignore[no-untyped-def]
         depth: (E,), how far beyond its wall a mirror image lies.
     """
     count, dimension = x.shape
-    room = float(count)
-    for axis in range(dimension):
-        room *= 1.0 + 2.0 * np.ceil(reach / (upper[axis] - lower[axis]))
-    room = int(min(room, 4.0 * count + 10_000.0)) if count > 5000 else int(room)
+    room = 2 * count + 1000
     positions = np.empty((room, dimension))
     source = np.empty(room, np.int32)
     wall = np.zeros(room, np.int8)
@@ -92,6 +108,12 @@ def with_images(x, lower, upper, kinds, reach):  # type: ignore[no-untyped-def]
                     beyond = place - upper[axis] if side else lower[axis] - place
                     if beyond < 0.0 or beyond >= reach:
                         continue
+                    if entries == room:
+                        positions = np.concatenate((positions, np.empty((room, dimension))))
+                        source = np.concatenate((source, np.empty(room, np.int32)))
+                        wall = np.concatenate((wall, np.zeros(room, np.int8)))
+                        depth = np.concatenate((depth, np.zeros(room)))
+                        room *= 2
                     for other in range(dimension):
                         positions[entries, other] = positions[e, other]
                     positions[entries, axis] = place

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 class ReducedMomentum:
     """du_i/dt = -sum_j m_j ((p_i - p_mean) / rho_i^2 + (p_j - p_mean) / rho_j^2) grad W_ij + viscous term.
 
-    Basa, Quinlan & Lastiwka 2009, eq. 20; p_mean is the mean of the neighbours' pressures. It is a constant of particle
-    i, so that sum_j m_j (1 / rho_i^2 + 1 / rho_j^2) grad W_ij is summed beside the rest and subtracted in the end.
+    Basa, Quinlan & Lastiwka 2009, eq. 20, j = i included, where a corrected grad W_ii is not zero; p_mean is the mean
+    of the neighbours' pressures. It is a constant of particle i, so that sum_j m_j (1 / rho_i^2 + 1 / rho_j^2)
+    grad W_ij is summed beside the rest and subtracted in the end.
 
     Args:
         term: the viscous term; None leaves it out.
@@ -49,8 +50,16 @@ class ReducedMomentum:
     def finish(self, own: Any, total: Any) -> Vector:
         """The force with the mean pressure taken out, and what the viscous term adds by itself."""
         force = total[0]
+        mean: Scalar = 0.0
         if self.reduced:
             _, gradient, pressure, count = total
-            force = add(force, scale(pressure / count, gradient))
+            mean = pressure / count
+            force = add(force, scale(mean, gradient))
+        at_zero = self.correction.gradient_at_zero(self.kernel, own.prepared, own.dimension)
+        if at_zero is not None:
+            excess = own.pressure_over_density2
+            if self.reduced:
+                excess = excess - mean * own.inverse_density2
+            force = add(force, scale(-2.0 * own.mass * excess, at_zero))
         itself = None if self.term is None else self.term.own_acceleration(self.kernel, self.correction, own)
         return force if itself is None else add(force, itself)

@@ -46,7 +46,7 @@ from sphear.neighbours.cells import sorted_cells
 @njit({options})
 def rates(x, v, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support, state, constants,
           table, index, right, density, pressure, acceleration):
-    """Density, pressure and acceleration of the particles; False where a correction cannot be computed."""
+    """Density, pressure and acceleration of the particles; -1, or the particle whose correction cannot be computed."""
     count, dimension = x.shape
     positions, source, wall, depth = with_images(x, lower, upper, kinds, {layers} * support)
     entries = len(source)
@@ -105,28 +105,44 @@ def rates(x, v, mass, viscosity, force, lower, upper, kinds, axis, velocities, s
     for i in range(count):
         for k in range(dimension):
             acceleration[i, k] = result[i, k] + force[k]
-    return True
+    return -1
 
 
-@njit({options})
+@njit({strict})
+def not_a_number(vectors):
+    """The first particle whose vector is not finite, else -1."""
+    for i in range(len(vectors)):
+        for k in range(vectors.shape[1]):
+            if not abs(vectors[i, k]) < np.inf:
+                return i
+    return -1
+
+
+@njit({strict})
 def advance(x, v, dt, steps, fastest, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support,
             state, constants, table, index, right, density, pressure):
-    """Steps of the midpoint rule; the number made, and 0, or 1 where a correction failed, 2 a number, 3 a speed."""
+    """Steps of the midpoint rule; the number made, what failed (a key of CAUSES, else 0) and at which particle."""
     count, dimension = x.shape
     acceleration, x_half, v_half = np.empty_like(x), np.empty_like(x), np.empty_like(x)
     for step in range(steps):
-        if not rates(x, v, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support, state,
-                     constants, table, index, right, density, pressure, acceleration):
-            return step, 1
         for i in range(count):
             for k in range(dimension):
-                x_half[i, k] = x[i, k] + 0.5 * dt * v[i, k]
-                v_half[i, k] = v[i, k] + 0.5 * dt * acceleration[i, k]
-        if not rates(x_half, v_half, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing, support,
-                     state, constants, table, index, right, density, pressure, acceleration):
-            return step, 1
+                x_half[i, k], v_half[i, k] = x[i, k], v[i, k]
+        for half in range(2):  # one call: a second would be compiled a second time
+            failed = rates(x_half, v_half, mass, viscosity, force, lower, upper, kinds, axis, velocities, spacing,
+                           support, state, constants, table, index, right, density, pressure, acceleration)
+            if failed >= 0:
+                return step, 1, failed
+            failed = not_a_number(acceleration)
+            if failed >= 0:
+                return step, 2, failed
+            if half == 0:
+                for i in range(count):
+                    for k in range(dimension):
+                        x_half[i, k] = x[i, k] + 0.5 * dt * v[i, k]
+                        v_half[i, k] = v[i, k] + 0.5 * dt * acceleration[i, k]
         square = 0.0
-        outside = False
+        fast, outside = 0, -1
         for i in range(count):
             speed = 0.0
             for k in range(dimension):
@@ -134,17 +150,16 @@ def advance(x, v, dt, steps, fastest, mass, viscosity, force, lower, upper, kind
                 v[i, k] += dt * acceleration[i, k]
                 if kinds[k] == 0:
                     x[i, k] = lower[k] + (x[i, k] - lower[k]) % (upper[k] - lower[k])
-                else:
-                    outside |= not (lower[k] < x[i, k] < upper[k])
+                elif not lower[k] < x[i, k] < upper[k]:
+                    outside = i
                 speed += v[i, k] * v[i, k]
-            square = max(square, speed) if speed == speed else np.inf
-        if not square < np.inf:
-            return step + 1, 2
-        if outside:
-            return step + 1, 4
+            if speed > square:
+                square, fast = speed, i
+        if outside >= 0:
+            return step + 1, 4, outside
         if square > fastest * fastest:
-            return step + 1, 3
-    return steps, 0
+            return step + 1, 3, fast
+    return steps, 0, -1
 '''
 
 
@@ -183,6 +198,7 @@ def loop_module(
         imports="\n".join(sweeps.imports),
         wall_velocity=wall_velocity,
         options=options_text(),
+        strict=options_text(strict=True),  # finds numbers that are not finite
         # first derivatives at mirror particles need their neighbours, which lie twice as deep
         layers=len(stages),
         rows="count" if len(stages) == 1 else "entries",
@@ -254,7 +270,7 @@ class _Sweeps:
         lines += [
             "for row in range(len(entry)):",
             f"    if target[row] < count and not prepared[row, 0] > {interaction.least_quality!r}:",
-            "        return False",
+            "        return target[row]",
         ]
         return lines, (("prepared", form),)
 

@@ -24,7 +24,7 @@ DENSITY_VARIATION = 0.01
 
 CAUSES = {
     1: "too few neighbours for a correction or a fit",
-    2: "a velocity that is not a number; the time step may be too large, or the particles unstable",
+    2: "an acceleration that is not a number; the time step may be too large, or the particles unstable",
     3: "a speed above the speed of sound, where the flow is no longer weakly compressible",
     4: "a particle went through a wall",
 }
@@ -85,7 +85,6 @@ class WeaklyCompressible:
         self.term = arguments.read_viscosity(settings.viscosity)
         self.correction = arguments.read_correction(settings.correction, self.term)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
-        self._check_walls()
         self.sound_speed = settings.sound_speed or morris_sound_speed(problem)
         self.time_step = self._time_step()
         stiff = settings.equation_of_state == "batchelor_tait"
@@ -96,6 +95,7 @@ class WeaklyCompressible:
         density = SummationDensity(self.kernel)
         preparation = self.term.preparation(self.kernel, self.correction)
         stages = self._stages()
+        self._check_walls(len(stages))
         wall_velocity = WALL_VELOCITIES.name(settings.wall_velocity)
         self._loop = loop_module(dimension, density, equation, preparation, stages, wall_velocity)
         interactions = [density, *([] if preparation is None else [preparation]), *stages]
@@ -121,13 +121,14 @@ class WeaklyCompressible:
         *before, _ = self.term.acceleration_stages(self.kernel, self.correction)
         return (*before, ReducedMomentum(self.term, self.kernel, self.correction, reduced))
 
-    def _check_walls(self) -> None:
+    def _check_walls(self, layers: int) -> None:
         box = self.problem.box
-        width = min(high - low for low, high in zip(box.lower, box.upper, strict=True))
-        if box.wall_axis >= 0 and self.kernel.radius > width:
+        width = box.upper[box.wall_axis] - box.lower[box.wall_axis]
+        supports = "the kernel's support" if layers == 1 else f"{layers} supports of the kernel"
+        if box.wall_axis >= 0 and layers * self.kernel.radius > width:
             raise SphearError(
-                f"the resolution of {self.settings.resolution} is too coarse for mirror particles: the kernel's support"
-                f" of {self.kernel.radius:g} is wider than the channel of {width:g}"
+                f"the resolution of {self.settings.resolution} is too coarse for mirror particles: {supports} of"
+                f" {layers * self.kernel.radius:g} reach beyond the channel's width of {width:g}"
             )
 
     def _time_step(self) -> float:
@@ -153,14 +154,12 @@ class WeaklyCompressible:
         Raises:
             FlowFailure: the flow broke down; the state is that of the moment.
         """
-        made, status = self._loop.advance(
+        made, status, worst = self._loop.advance(
             self.positions, self.velocities, self.time_step, steps, self.sound_speed, *self._arguments
         )
         self.steps += made
         self.time += made * self.time_step
         if status:
-            speeds = np.linalg.norm(self.velocities, axis=1)
-            worst = int(np.argmax(np.where(np.isfinite(speeds), speeds, np.inf)))
             place = ", ".join(f"{x:.6g}" for x in self.positions[worst])
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
 

@@ -9,8 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from sphear.boundaries import WALL_VELOCITIES
+from sphear.corrections import CORRECTIONS
+from sphear.kernels import KERNELS
 from sphear.schemes.settings import FlowSettings
 from sphear.schemes.weakly_compressible import FlowFailure, Problem, WeaklyCompressible
+from sphear.viscosity import VISCOSITY
 
 Array = np.ndarray[Any, Any]
 
@@ -104,6 +108,10 @@ class FlowRun:
         """Case, resolved settings, metrics and performance, as `--json` prints them."""
         flow, settings = self.flow, self.settings
         resolved = {
+            "viscosity": VISCOSITY.name(settings.viscosity),
+            "correction": CORRECTIONS.name(settings.correction),
+            "kernel": KERNELS.name(settings.kernel),
+            "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
             "h_over_dx": flow.kernel.h / flow.problem.spacing,
             "sound_speed": flow.sound_speed,
             "time_step": flow.time_step,

@@ -1,0 +1,136 @@
+"""Images of particles beyond periodic sides and walls, against all shifts and reflections by brute force."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sphear import SphearError
+from sphear.boundaries import Box
+from sphear.boundaries.box import with_images
+
+Array = np.ndarray[Any, Any]
+Image = tuple[Any, ...]
+
+
+def images(box: Box, x: Array, reach: float) -> list[Image]:
+    """(source, wall, depth, *place) of the images that `with_images` makes, sorted."""
+    lower, upper, kinds, _ = box.arrays()
+    positions, source, wall, depth = with_images(x, lower, upper, kinds, reach)
+    np.testing.assert_array_equal(source[: len(x)], np.arange(len(x)))
+    assert not wall[: len(x)].any()
+    assert not depth[: len(x)].any()
+    return rounded(zip(source, wall, depth, *positions.T, strict=True))
+
+
+def brute_force(box: Box, x: Array, reach: float) -> list[Image]:
+    """Every combination, axis by axis, of staying, being shifted by periods or being reflected at a wall."""
+    found = []
+    for i, place in enumerate(x):
+        along: list[list[tuple[float, int, float]]] = []  # place, wall and depth
+        for at, low, high, side in zip(place, box.lower, box.upper, box.sides, strict=True):
+            period = high - low
+            if side == "periodic":
+                inside = low + (at - low) % period
+                many = range(-2 - int(reach / period), 3 + int(reach / period))
+                shifted = [(inside + n * period, n) for n in many]
+                kept = [(p, 0, 0.0) for p, n in shifted if n == 0 or 0 <= (p - high if n > 0 else low - p) < reach]
+            else:
+                mirrored = [(2 * low - at, 1, at - low), (2 * high - at, 2, high - at)]
+                kept = [(at, 0, 0.0), *(m for m in mirrored if 0 <= m[2] < reach)]
+            along.append(kept)
+        for choice in product(*along):
+            found.append((i, max(c[1] for c in choice), max(c[2] for c in choice), *(c[0] for c in choice)))
+    return rounded(found)
+
+
+def rounded(found: Any) -> list[Image]:
+    return sorted(tuple(round(float(number), 9) + 0.0 for number in image) for image in found)
+
+
+SIDES = [("periodic", "periodic"), ("periodic", "walls"), ("walls", "periodic")]
+
+
+@pytest.mark.parametrize("sides", SIDES)
+@pytest.mark.parametrize("reach", [0.31, 0.97, 2.3])
+def test_images_are_those_of_brute_force(sides: Any, reach: float) -> None:
+    box = Box((-0.5, 0.2), (0.5, 0.9), sides)
+    x = np.array(box.lower) + np.random.default_rng(0).random((23, 2)) * np.subtract(box.upper, box.lower)
+    assert images(box, x, reach) == brute_force(box, x, reach)
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_particles_outside_come_back_over_periodic_sides_only(sides: Any) -> None:
+    box = Box((0.0, 0.0), (1.0, 2.0), sides)
+    x = np.array([[0.1, 0.2], [0.9, 1.7]])
+    for axis, side in enumerate(sides):
+        if side == "periodic":
+            x[0, axis] -= 3 * box.upper[axis]
+            x[1, axis] += 5 * box.upper[axis]
+    assert images(box, x, 0.4) == brute_force(box, x, 0.4)
+    assert (0.0, 0.0, 0.0, 0.1, 0.2) in images(box, x, 0.4)
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_a_particle_on_a_side_has_its_images(sides: Any) -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), sides)
+    x = np.array([[0.0, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.25]])
+    assert images(box, x, 0.3) == brute_force(box, x, 0.3)
+
+
+def test_a_particle_just_below_a_periodic_side_stays_within_rounding_of_it() -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"))
+    places = {image[3:] for image in images(box, np.array([[-1e-20, 0.5]]), 0.3)}
+    assert places == {(0.0, 0.5), (1.0, 0.5)}
+
+
+def test_three_dimensions() -> None:
+    box = Box((0.0, 0.0, 0.0), (1.0, 1.5, 0.5), ("periodic", "walls", "periodic"))
+    x = np.random.default_rng(1).random((9, 3)) * box.upper
+    assert images(box, x, 0.6) == brute_force(box, x, 0.6)
+    np.testing.assert_array_equal(box.arrays()[3], np.zeros((2, 3)))
+
+
+def test_room_for_images_grows_with_their_number() -> None:
+    """More particles than any first guess, with a reach of several periods: 25 places for each."""
+    box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"))
+    x = np.random.default_rng(2).random((6000, 2))
+    lower, upper, kinds, _ = box.arrays()
+    positions, source, _, _ = with_images(x, lower, upper, kinds, 2.0 + 1e-9)
+    inside = ((positions > -2) & (positions < 3)).all(axis=1)
+    np.testing.assert_array_equal(np.bincount(source[inside], minlength=len(x)), 25)
+    np.testing.assert_allclose((positions - x[source]) % 1.0 % (1.0 - 1e-9), 0.0, atol=2e-9)
+
+
+def test_depth_and_velocities_belong_to_their_walls() -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"), upper_velocity=(2.0, 0.0))
+    assert box.wall_axis == 1
+    np.testing.assert_array_equal(box.arrays()[3], [[0.0, 0.0], [2.0, 0.0]])
+    found = images(box, np.array([[0.5, 0.1], [0.5, 0.8]]), 0.25)
+    assert found == [(0, 0, 0, 0.5, 0.1), (0, 1, 0.1, 0.5, -0.1), (1, 0, 0, 0.5, 0.8), (1, 2, 0.2, 0.5, 1.2)]
+
+
+def test_no_walls() -> None:
+    assert Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic")).wall_axis == -1
+
+
+WRONG: dict[str, tuple[tuple[Any, ...], str]] = {
+    "corners": (((0.0, 0.0), (1.0, 1.0), ("walls", "walls")), "walls along one axis at most"),
+    "upside down": (((0.0, 1.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
+    "flat": (((0.0, 0.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
+    "infinite": (((0.0, 0.0), (1.0, np.inf), ("periodic", "walls")), "beyond the lower one"),
+    "not a number": (((0.0, np.nan), (1.0, 1.0), ("periodic", "walls")), "beyond the lower one"),
+    "unknown side": (((0.0, 0.0), (1.0, 1.0), ("periodic", "wall")), "not 'wall'"),
+    "a side too few": (((0.0, 0.0), (1.0, 1.0), ("periodic",)), "as many corner coordinates as sides"),
+    "velocity of another dimension": (((0.0,), (1.0,), ("walls",), (1.0, 0.0)), "1 components, not 2"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_box_that_is_none_is_refused(case: str) -> None:
+    arguments, message = WRONG[case]
+    with pytest.raises(SphearError, match=message):
+        Box(*arguments)
