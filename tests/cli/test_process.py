@@ -21,8 +21,10 @@ SENTENCE = "sphear: interrupted; nothing half-written is left"
 
 
 def started(*arguments: str, module: tuple[str, ...] = ("-m", "sphear"), **options: Any) -> subprocess.Popen[str]:
-    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "env": ENVIRONMENT, "text": True} | options
-    process: subprocess.Popen[str] = subprocess.Popen([sys.executable, *module, *arguments], **options)
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    process: subprocess.Popen[str] = subprocess.Popen(
+        [sys.executable, *module, *arguments], **{**pipes, "env": ENVIRONMENT, "text": True, **options}
+    )
     return process
 
 

@@ -16,7 +16,13 @@ from sphear.viscosity import VISCOSITY, Morris
 pytest.importorskip("numba.cuda", reason="the extra cuda is not installed")
 cuda = pytest.importorskip("sphear.engine.cuda")
 
-PARTICLE = (("volume", 0.0), ("density", 0.0), ("dynamic_viscosity", 0.0), ("mass", 0.0), ("pressure_over_density2", 0.0))
+PARTICLE = (
+    ("volume", 0.0),
+    ("density", 0.0),
+    ("dynamic_viscosity", 0.0),
+    ("mass", 0.0),
+    ("pressure_over_density2", 0.0),
+)
 ACCEPTED = [
     (term, correction)
     for term in VISCOSITY
@@ -127,6 +133,9 @@ print("equal")
 def test_the_kernel_computes_what_the_cpu_does():
     """On the simulator of numba-cuda, which runs the kernel's source thread by thread."""
     run = subprocess.run(
-        [sys.executable, "-c", SIMULATED], env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"}, capture_output=True, text=True
+        [sys.executable, "-c", SIMULATED],
+        env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"},
+        capture_output=True,
+        text=True,
     )
     assert run.stdout.strip() == "equal", run.stderr[-2000:]
