@@ -16,6 +16,7 @@ import pytest
 import sphear
 
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(sphear.__file__).parents[1])}
+ENVIRONMENT.pop("PYTHONUNBUFFERED", None)  # what is held back must come out, or fail, in time
 LONG = ("patch-test", "--sizes", "30", "--jitter", "0.3", "--seeds", "1000000")
 SENTENCE = "sphear: interrupted; nothing half-written is left"
 
