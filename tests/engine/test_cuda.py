@@ -121,7 +121,8 @@ on_cpu = Sweep(ViscousAcceleration(Monaghan(), CubicSpline(0.2), NoCorrection())
 module = generated_module(cuda_text(on_cpu.formula, "simulated", 2))
 out, (chunk,) = np.zeros((60, 2)), neighbours.chunks
 cuda.jit(module.sweep)[2, 32](
-    on_cpu.parameters, on_cpu.records, np.empty((0, 0)), out, neighbours.rows, neighbours.entry, chunk.first,
+    on_cpu.parameters, on_cpu.records, on_cpu.private, np.empty((0, 0)), out, neighbours.rows, neighbours.entry,
+    chunk.first,
     chunk.neighbour,
 )
 expected = on_cpu.everywhere()

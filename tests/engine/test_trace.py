@@ -219,5 +219,5 @@ def test_symbols_stand_in_for_floats_in_the_order_of_the_parameters() -> None:
 
 def test_only_the_fields_a_formula_uses_are_packed() -> None:
     code = traced(Weighted(1.0, CubicSpline(1.0), 1), 2, (("unused", 0.0), ("mass", 0.0), ("charge", (0.0, 0.0))))
-    assert code.columns == (("mass", 0), ("charge", 1))
-    assert code.other_columns == 1
+    assert code.columns == (("mass", 0),)
+    assert code.private == (("charge", 1),)
