@@ -7,12 +7,13 @@ of the support wide. Lanes are changed, and cells too, by changing the module's 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from unittest import mock
 
 from _bench import Measurement, Report, best_of, clocked
-from sweep import Case
+from _case import Case
 
-from sphear.engine import program
+from sphear.engine import flags, program
 from sphear.engine import sweep as engine
 from sphear.neighbours import cells, pair_list
 
@@ -30,7 +31,7 @@ def with_lanes(case: Case, dtype: str, lanes: int) -> engine.Sweep:
 def with_reach(case: Case, reach: int) -> Measurement:
     """The time of a search with cells of the support over `reach`."""
 
-    def measure() -> dict[str, float]:
+    def measure() -> Mapping[str, float]:
         with mock.patch.object(cells, "REACH", reach), mock.patch.object(pair_list, "REACH", reach):
             pair_list._builder.cache_clear()
             case.search()
@@ -50,16 +51,16 @@ def main() -> None:
         ]
         times = best_of(10, *sweeps, *(with_reach(case, reach) for reach in REACHES))
         pair_list._builder.cache_clear()
-        default = times[f"float64 {program.lane_count('float64')}"]
+        default = times[f"float64 {flags.lane_count('float64')}"]
         for dtype, numbers in LANES.items():
             for lanes in numbers:
-                chosen = " (default)" if lanes == program.lane_count(dtype) else ""
+                chosen = " (default)" if lanes == flags.lane_count(dtype) else ""
                 what = f"{side}x{side}, speed, {dtype} in {lanes} lanes{chosen} / default"
                 report.add(what, default / times[f"{dtype} {lanes}"])
         for reach in REACHES:
             chosen = " (default)" if reach == cells.REACH else ""
-            what = f"{side}x{side}, search in sweeps, {reach} cells a support{chosen}"
-            report.add(what, times[f"reach {reach}"] / default)
+            what = f"{side}x{side}, speed, search with {reach} cells a support{chosen} / default"
+            report.add(what, times[f"reach {cells.REACH}"] / times[f"reach {reach}"])
     report.close()
 
 

@@ -11,64 +11,33 @@ cell width and number of lanes counts.
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import tempfile
 from functools import partial
 from pathlib import Path
 
 import _roofline
-import numpy as np
-from _bench import Report, best_of, clocked, jittered_square
+from _bench import Report, best_of, clocked
+from _case import Case
 
-from sphear import CubicSpline, Kernel, Morris, Neighbours, NoCorrection, WendlandC2
-from sphear.engine.sweep import Sweep
-from sphear.interactions import Momentum
+from sphear import CubicSpline
 from sphear.neighbours.cells import cell_sort
 
-SUPPORT_OVER_DX = 3.09  # 29 neighbours
-ETA = 0.1  # smoothing lengths
-VISCOSITY = 0.01
+FIRST_SEARCH = f"""
+import sys, time
+sys.path.insert(0, {str(Path(__file__).parent)!r})
+from _bench import best_of, clocked, jittered_square
+from _case import SUPPORT_OVER_DX, Case
+from sphear import Neighbours
 
-
-class Case:
-    """Particles on a jittered lattice in open space, and sphear's sweep over them."""
-
-    def __init__(
-        self, side: int, kernel: type[Kernel] = WendlandC2, threads: int = 1, each_pair_once: bool = False
-    ) -> None:
-        random = np.random.default_rng(1)
-        self.positions, self.support = jittered_square(side), SUPPORT_OVER_DX / side
-        self.count, self.mass, self.threads, self.once = side**2, 1 / side**2, threads, each_pair_once
-        density = 1 + 0.01 * random.random(self.count)
-        self.fields = {
-            "velocity": random.standard_normal((self.count, 2)),
-            "pressure_over_density2": random.random(self.count),
-            "density": density,
-            "volume": self.mass / density,
-            "mass": np.full(self.count, self.mass),
-            "dynamic_viscosity": np.full(self.count, VISCOSITY),
-        }
-        self.interaction = Momentum(Morris(eta=ETA), kernel(self.support / 2), NoCorrection())
-        self.neighbours = self.search()
-        self.sweep = self.packed()
-        self.out = np.empty((self.count, 2))
-        self.targets = [self.neighbours.particles(chunk) for chunk in self.neighbours.chunks]
-
-    def search(self) -> Neighbours:
-        return Neighbours(self.positions, self.support, threads=self.threads, each_pair_once=self.once)
-
-    def packed(self) -> Sweep:
-        return Sweep(self.interaction, self.neighbours, self.fields, each_pair_once=self.once)
-
-    def over(self) -> None:
-        for chunk, target in zip(self.neighbours.chunks, self.targets, strict=True):
-            self.sweep.over(chunk, self.out, target)
-
-    def write(self, file: Path) -> None:
-        names = ("velocity", "pressure_over_density2", "density")
-        fields = {name: self.fields[name] for name in names}
-        _roofline.write_particles(
-            file, self.support, ETA * self.support / 2, VISCOSITY, self.mass, self.positions, **fields
-        )
+Case(20)  # compiles
+positions = jittered_square(316)
+begin = time.thread_time()
+Neighbours(positions, SUPPORT_OVER_DX / 316, threads=1)
+first = time.thread_time() - begin
+print(first / best_of(1, clocked("sweep", Case(316).over))["sweep"])
+"""
 
 
 def compare(report: Report, side: int, program: Path | None, particles: Path) -> None:
@@ -76,6 +45,7 @@ def compare(report: Report, side: int, program: Path | None, particles: Path) ->
     case, cubic, once = Case(side), Case(side, CubicSpline), Case(side, each_pair_once=True)
     measurements = [
         clocked("sweep", case.over, 5),
+        clocked("everywhere", case.sweep.everywhere, 5),
         clocked("with packing", lambda: case.packed().everywhere(), 5),
         clocked("once", once.sweep.everywhere, 5),
         clocked("cubic spline", cubic.over, 5),
@@ -91,18 +61,20 @@ def compare(report: Report, side: int, program: Path | None, particles: Path) ->
         measurements.append(_roofline.measurement(program, particles))
     times = best_of(10, *measurements)
 
-    def add(what: str, over: float, under: float, **asked: float) -> None:
-        report.add(f"{side}x{side}, {what}", over / under, **asked)
+    def add(
+        what: str, over: float, under: float, *, at_least: float | None = None, at_most: float | None = None
+    ) -> None:
+        report.add(f"{side}x{side}, {what}", over / under, at_least=at_least, at_most=at_most)
 
     pairs = case.neighbours.pairs / case.count
     report.say(f"{side}x{side}, {pairs:.1f} neighbours, {case.count / times['sweep'] / 1e6:.1f} million particles/s")
-    add("with packing / without", times["with packing"], times["sweep"])
-    add("speed, each pair once / twice", times["sweep"], times["once"])
+    add("with packing / without", times["with packing"], times["everywhere"])
+    add("speed, each pair once / twice", times["everywhere"], times["once"])
     if program:
         fastest = min(_roofline.FULL, key=times.__getitem__)
         add("speed, sphear / cell_auto", times["cell_auto"], times["sweep"], at_least=1.5)
         add(f"speed, sphear / fastest full layout ({fastest})", times[fastest], times["sweep"], at_least=0.6)
-        for name in _roofline.FULL + _roofline.ONCE:
+        for name in (*_roofline.FULL[1:], *_roofline.ONCE):
             add(f"speed, sphear / {name}", times[name], times["sweep"])
         add("speed, sphear, each pair once / half_aos", times["half_aos"], times["once"])
         add("speed, sort and list, sphear / C++", times["sort"] + times["build"], times["search"])
@@ -110,6 +82,12 @@ def compare(report: Report, side: int, program: Path | None, particles: Path) ->
     add("sort and list in sweeps, cubic spline", times["search"], times["cubic spline"], at_most=1.3)
     add("the sort alone in sweeps, Wendland C2", times["cell sort"], times["sweep"])
     add("sort and list of each pair once in sweeps of that kind", times["search once"], times["once"])
+
+
+def first_search(report: Report) -> None:
+    """The first search of a process, whose memory comes from the operating system page by page."""
+    ratios = [float(subprocess.check_output([sys.executable, "-c", FIRST_SEARCH])) for _ in range(5)]
+    report.add("316x316, sort and list in sweeps, first of a process", min(ratios))
 
 
 def main() -> None:
@@ -120,11 +98,7 @@ def main() -> None:
             report.say(program)
         for side in (100, 316):
             compare(report, side, program if isinstance(program, Path) else None, Path(folder) / "particles")
-    for once in (False, True):
-        one, two = (Case(316, threads=threads, each_pair_once=once) for threads in (1, 2))
-        times = best_of(5, clocked("one", one.sweep.everywhere, 3), clocked("two", two.sweep.everywhere, 3))
-        what = f"316x316, two threads / one, each pair {'once' if once else 'twice'}"
-        report.add(what, times["one"] / times["two"], **({} if once else {"at_least": 1.8}))
+    first_search(report)
     report.close()
 
 

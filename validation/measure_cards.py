@@ -1,8 +1,8 @@
 """Measures what the card of each viscous term states and writes it to src/sphear/viscosity/measured.json.
 
 Orders: L1 error of the Laplacian of sin(2 pi x) sin(2 pi y), or for radial terms of the velocity with that stream
-function, cubic spline with a support of 3.14 dx: on a lattice from 160 to 320 particles a side; jittered by 0.3 dx from 80 to
-160, mean of 8 seeds.
+function, cubic spline with a support of 3.14 dx: on a lattice from 160 to 320 particles a side; jittered by 0.3 dx from
+80 to 160, mean of 8 seeds.
 Conservation and dissipation: `sphear.cases.conservation`. Cost: seconds for one viscous acceleration of 100 x 100
 particles over those of `morris`, one thread, in turn.
 

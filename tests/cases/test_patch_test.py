@@ -183,7 +183,7 @@ def test_a_term_or_size_given_twice_counts_once() -> None:
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("velocity", [False, True])
 def test_a_term_exact_for_cubics_is_exact(velocity: bool, dimension: int) -> None:
-    """Renormalised gradients are on a lattice, whose symmetry takes cubic and mixed terms out."""
+    """As VISC-04 is on a lattice, whose symmetry takes cubic and mixed terms out."""
     field = "polynomial-4" if velocity else "polynomial-3"  # a velocity is of one degree less
     assert row(viscosity=("oger",), velocity=velocity, dimension=dimension, field=field)["max"] < 1e-8
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.patch_test import PatchTest
+from sphear.cli.output import print_json
 from sphear.references.zheng2018 import SIZES, TABLE_1
 
 Run = Callable[..., Any]
@@ -69,7 +71,12 @@ def test_the_table_of_the_patch_test(sphear: Run) -> None:
     assert f"{row['l1']:.2e}".replace("e-0", "e-") in found.out
 
 
-def test_no_number_is_null_in_json(sphear: Run) -> None:
+def test_numbers_that_json_does_not_know_are_null(capsys: pytest.CaptureFixture[str]) -> None:
+    print_json({"a": math.nan, "b": [math.inf, 1.5], "c": {"d": (-math.inf,)}})
+    assert json.loads(capsys.readouterr().out) == {"a": None, "b": [None, 1.5], "c": {"d": [None]}}
+
+
+def test_what_does_not_exist_is_null_in_json(sphear: Run) -> None:
     rows = sphear("patch-test", "--sizes", "12", "--field", "3", "--json").json()["rows"]
     assert (rows[0]["l1"], rows[0]["order"]) == (0, None)
 

@@ -16,13 +16,16 @@ import pytest
 import sphear
 
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(sphear.__file__).parents[1])}
+ENVIRONMENT.pop("PYTHONUNBUFFERED", None)  # what is held back must come out, or fail, in time
 LONG = ("patch-test", "--sizes", "30", "--jitter", "0.3", "--seeds", "1000000")
 SENTENCE = "sphear: interrupted; nothing half-written is left"
 
 
 def started(*arguments: str, module: tuple[str, ...] = ("-m", "sphear"), **options: Any) -> subprocess.Popen[str]:
-    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "env": ENVIRONMENT, "text": True} | options
-    process: subprocess.Popen[str] = subprocess.Popen([sys.executable, *module, *arguments], **options)
+    pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    process: subprocess.Popen[str] = subprocess.Popen(
+        [sys.executable, *module, *arguments], **{**pipes, "env": ENVIRONMENT, "text": True, **options}
+    )
     return process
 
 

@@ -16,7 +16,13 @@ from sphear.viscosity import VISCOSITY, Morris
 pytest.importorskip("numba.cuda", reason="the extra cuda is not installed")
 cuda = pytest.importorskip("sphear.engine.cuda")
 
-PARTICLE = (("volume", 0.0), ("density", 0.0), ("dynamic_viscosity", 0.0), ("mass", 0.0), ("pressure_over_density2", 0.0))
+PARTICLE = (
+    ("volume", 0.0),
+    ("density", 0.0),
+    ("dynamic_viscosity", 0.0),
+    ("mass", 0.0),
+    ("pressure_over_density2", 0.0),
+)
 ACCEPTED = [
     (term, correction)
     for term in VISCOSITY
@@ -115,7 +121,8 @@ on_cpu = Sweep(ViscousAcceleration(Monaghan(), CubicSpline(0.2), NoCorrection())
 module = generated_module(cuda_text(on_cpu.formula, "simulated", 2))
 out, (chunk,) = np.zeros((60, 2)), neighbours.chunks
 cuda.jit(module.sweep)[2, 32](
-    on_cpu.parameters, on_cpu.records, np.empty((0, 0)), out, neighbours.rows, neighbours.entry, chunk.first,
+    on_cpu.parameters, on_cpu.records, on_cpu.private, np.empty((0, 0)), out, neighbours.rows, neighbours.entry,
+    chunk.first,
     chunk.neighbour,
 )
 expected = on_cpu.everywhere()
@@ -127,6 +134,9 @@ print("equal")
 def test_the_kernel_computes_what_the_cpu_does():
     """On the simulator of numba-cuda, which runs the kernel's source thread by thread."""
     run = subprocess.run(
-        [sys.executable, "-c", SIMULATED], env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"}, capture_output=True, text=True
+        [sys.executable, "-c", SIMULATED],
+        env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"},
+        capture_output=True,
+        text=True,
     )
     assert run.stdout.strip() == "equal", run.stderr[-2000:]

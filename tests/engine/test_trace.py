@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear import CORRECTIONS, KERNELS, VISCOSITY, CubicSpline, Kernel, WendlandC2, algebra
+from sphear import CORRECTIONS, KERNELS, VISCOSITY, Cleary, CubicSpline, Kernel, WendlandC2, algebra
 from sphear.corrections.renormalised import safe_inverse
 from sphear.engine.formula import Sum, traced
 from sphear.engine.structure import fill, kind, leaves, parameters, with_symbols
@@ -204,6 +204,12 @@ def test_floats_are_parameters_and_all_else_is_code() -> None:
     assert traced(a, 2, shapes) is not traced(a, 3, shapes)
 
 
+def test_an_optional_float_is_a_parameter_where_it_is_given() -> None:
+    assert kind(Cleary(xi=4.24)) == kind(Cleary(xi=5.0))
+    assert kind(Cleary(xi=4.24)) != kind(Cleary())
+    assert parameters(Cleary(xi=4.24, eta=None)) == [4.24]
+
+
 def test_symbols_stand_in_for_floats_in_the_order_of_the_parameters() -> None:
     counted = iter(("first", "second"))
     copy = with_symbols(Weighted(2.0, CubicSpline(0.5), 2), lambda: next(counted))
@@ -213,5 +219,5 @@ def test_symbols_stand_in_for_floats_in_the_order_of_the_parameters() -> None:
 
 def test_only_the_fields_a_formula_uses_are_packed() -> None:
     code = traced(Weighted(1.0, CubicSpline(1.0), 1), 2, (("unused", 0.0), ("mass", 0.0), ("charge", (0.0, 0.0))))
-    assert code.columns == (("mass", 0), ("charge", 1))
-    assert code.other_columns == 1
+    assert code.columns == (("mass", 0),)
+    assert code.private == (("charge", 1),)

@@ -73,8 +73,8 @@ class PatchTest(BaseModel):
             arguments.read_correction(self.correction, term)
             if term.radial and not self.velocity:
                 raise SphearError(
-                    f"viscosity {term.name!r} cannot act on a scalar field, because its pair force points along the"
-                    f" line of centres: let the patch test act on a velocity (--velocity)"
+                    f"viscosity {term.name!r} cannot act on a scalar field, because its pair force depends on the"
+                    f" velocity along the line of centres: let the patch test act on a velocity (--velocity)"
                 )
         errors = {
             (name, size): PatchErrors.mean(found)

@@ -16,7 +16,7 @@ from math import exp, sqrt
 from numba import cuda
 
 
-def sweep(parameters, records, own, out, target, entry, first, neighbour):
+def sweep(parameters, records, private, own, out, target, entry, first, neighbour):
     """out[target[row]] = finish(sum over the neighbours of row), one thread a row."""
     row = cuda.grid(1)
     if row >= len(entry):
@@ -60,6 +60,7 @@ def cuda_text(formula: TracedFormula, title: str, dimension: int) -> str:
     columns = list(enumerate(formula.columns, dimension))
     own = [f"own_x{axis} = records[i, {axis}]" for axis in axes]
     own += [f"own_{f}_{k} = records[i, {column}]" for column, (f, k) in columns]
+    own += [f"own_{f}_{k} = private[i, {column}]" for column, (f, k) in enumerate(formula.private)]
     own += [f"{name} = own[row, {column}]" for name, column in zip(formula.own_names, formula.own_columns, strict=True)]
     sums = range(len(formula.pair_outputs))
     return _SWEEP.format(
@@ -67,9 +68,7 @@ def cuda_text(formula: TracedFormula, title: str, dimension: int) -> str:
         parameters=_block([f"p{k} = parameters[{k}]" for k in range(formula.parameter_count)], 4),
         own=_block(own, 4),
         zeros=_block([f"total{k} = 0.0" for k in sums], 4),
-        other=_block(
-            [f"other_{f}_{k} = records[j, {column}]" for column, (f, k) in columns[: formula.other_columns]], 8
-        ),
+        other=_block([f"other_{f}_{k} = records[j, {column}]" for column, (f, k) in columns], 8),
         differences=_block([f"d{axis} = own_x{axis} - records[j, {axis}]" for axis in axes], 8),
         square=" + ".join(f"d{axis} * d{axis}" for axis in axes),
         pair=_block([_without_functions(line) for line in formula.pair_lines], 8),
@@ -102,6 +101,6 @@ def ptx(
     scalar = getattr(types, dtype)
     table, numbers = types.Array(scalar, 2, "C"), types.Array(types.int32, 1, "C")
     firsts = types.Array(types.int64, 1, "C")
-    signature = types.void(types.Array(scalar, 1, "C"), table, table, table, numbers, numbers, firsts, numbers)
+    signature = types.void(types.Array(scalar, 1, "C"), table, table, table, table, numbers, numbers, firsts, numbers)
     text, _ = cuda.compile_ptx(module.sweep, signature, cc=compute_capability, fastmath=True)
     return str(text)

@@ -36,14 +36,15 @@ Shape = tuple[str, Any]  # a field's name, and a structure of the form of its va
 class TracedFormula:
     """The code of one interaction for one dimension and one set of fields.
 
-    `columns` are the fields and components that a neighbour's record holds, (field, component), after the position;
-    those of `other` come first. `reverse_outputs` are what the pair contributes to the sum of `other`, where both sides
-    of it are wanted. `own_names` and `own_columns` are the used columns of the particle's own array.
+    `columns` are the fields and components that a particle's record holds for its neighbours, (field, component), after
+    the position; `private` are those that it alone needs, kept apart so that neighbours do not load them.
+    `reverse_outputs` are what the pair contributes to the sum of `other`, where both sides of it are wanted.
+    `own_names` and `own_columns` are the used columns of what was prepared for the particle.
     """
 
     parameter_count: int
     columns: tuple[tuple[str, int], ...]
-    other_columns: int
+    private: tuple[tuple[str, int], ...]
     own_names: tuple[str, ...]
     own_columns: tuple[int, ...]
     pair_lines: tuple[str, ...]
@@ -96,8 +97,8 @@ def _traced(
     own_names = [f"coefficient_{name}_{k}" for name, template in own_only for k in range(len(list(leaves(template))))]
     return TracedFormula(
         parameter_count=next(numbers),
-        columns=(*of_other, *of_own),
-        other_columns=len(of_other),
+        columns=tuple(of_other),
+        private=tuple(of_own),
         own_names=tuple(name for name in own_names if name in used),
         own_columns=tuple(k for k, name in enumerate(own_names) if name in used),
         pair_lines=tuple(pair_lines),

@@ -17,7 +17,7 @@ zeros = lane_zeros({dtype!r}, {width})
 
 
 @njit({options})
-def sweep(parameters, far, records, own, out, target, entry, first, neighbour, begin, end, origin):
+def sweep(parameters, far, records, private, own, out, target, entry, first, neighbour, begin, end, origin):
     """out[target[row - origin]] = finish(sum over the neighbours of row), for the rows begin ... end of a chunk."""
     {parameters}
     for row in range(begin, end):
@@ -50,7 +50,7 @@ zeros = lane_zeros({dtype!r}, {width})
 
 
 @njit({options})
-def sweep(parameters, far, records, sums, entry, first, neighbour, begin, end, origin):
+def sweep(parameters, far, records, private, sums, entry, first, neighbour, begin, end, origin):
     """Add to sums[i] and sums[j] what each listed pair (i, j) contributes to either."""
     {parameters}
     for row in range(begin, end):
@@ -69,7 +69,7 @@ def sweep(parameters, far, records, sums, entry, first, neighbour, begin, end, o
 
 
 @njit({options})
-def finish(parameters, records, sums, out, target, entry, begin, end, origin):
+def finish(parameters, records, private, sums, out, target, entry, begin, end, origin):
     """out[target[row - origin]] = finish(sums[i]), for the rows begin ... end of a chunk."""
     {parameters}
     for row in range(begin, end):
@@ -98,9 +98,10 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
     """
     axes = range(dimension)
     width = lane_count(dtype)
-    others = [f"x{axis}" for axis in axes] + [f"other_{f}_{k}" for f, k in formula.columns[: formula.other_columns]]
+    others = [f"x{axis}" for axis in axes] + [f"other_{f}_{k}" for f, k in formula.columns]
     own = [f"own_x{axis} = records[i, {axis}]" for axis in axes]
     own += [f"own_{f}_{k} = records[i, {dimension + column}]" for column, (f, k) in enumerate(formula.columns)]
+    own += [f"own_{f}_{k} = private[i, {column}]" for column, (f, k) in enumerate(formula.private)]
     own += [
         f"{name} = own[row - origin, {column}]"
         for name, column in zip(formula.own_names, formula.own_columns, strict=True)

@@ -114,8 +114,9 @@ def _transposed(builder: Any, rows: list[Any]) -> list[Any]:
 @compiled
 def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyped-def]  # pragma: no cover
     for entry in range(begin, end):
+        i = np.uint64(source[entry])  # unsigned, so that no index is tested for wrapping around
         for k in range(values.shape[1]):
-            records[entry, column + k] = values[source[entry], k]
+            records[entry, column + k] = values[i, k]
 
 
 def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any]:

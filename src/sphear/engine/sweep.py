@@ -63,18 +63,20 @@ class Sweep:
         self.formula = traced(self.interaction, dimension, shared, self.own, both_sides=self.each_pair_once)
         self.module = _compiled(self.formula, type(self.interaction).__name__, dimension, self.dtype)
         self.parameters = np.array(parameters(self.interaction) or [0.0], self.dtype)
-        self.records = self._packed()
+        self.records = self._packed(self.formula.columns, with_position=True)
+        self.private = self._packed(self.formula.private)
 
-    def _packed(self) -> Array:
-        neighbours, formula = self.neighbours, self.formula
-        records = empty_records(len(neighbours.source), neighbours.dimension + len(formula.columns), self.dtype)
+    def _packed(self, columns: tuple[tuple[str, int], ...], with_position: bool = False) -> Array:
+        """The columns, (field, component), of each entry side by side, (entries, columns)."""
+        neighbours = self.neighbours
+        column = neighbours.dimension if with_position else 0
+        records = empty_records(len(neighbours.source), column + len(columns), self.dtype)
         # from some particle in their midst, so that single precision spends no digits on a common offset
-        coordinates = neighbours.coordinates[:, : len(records)]
-        for axis in range(neighbours.dimension):
-            records[:, axis] = coordinates[axis] - coordinates[axis, len(records) // 2]
-        column = neighbours.dimension
+        for axis in range(column):
+            coordinates = neighbours.coordinates[axis, : len(records)]
+            records[:, axis] = coordinates - coordinates[len(records) // 2]
         # columns of one field with components that follow each other are packed by one copy
-        for (name, _), run in groupby(enumerate(formula.columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
+        for (name, _), run in groupby(enumerate(columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
             components = [component for _, (_, component) in run]
             values = self.fields[name].reshape(neighbours.count, -1)
             column = pack(records, column, values[:, components[0] : components[-1] + 1], neighbours.source)
@@ -97,8 +99,8 @@ class Sweep:
         if own is None:
             own = np.empty((0, 0), self.dtype)
         self.module.sweep(
-            self.parameters, FAR * self.neighbours.support, self.records, own, out, target, self.neighbours.entry,
-            chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
+            self.parameters, FAR * self.neighbours.support, self.records, self.private, own, out, target,
+            self.neighbours.entry, chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
         )  # fmt: skip
 
     def everywhere(self) -> Array:
@@ -122,14 +124,14 @@ class Sweep:
 
         def add(chunk: Chunk) -> None:
             self.module.sweep(
-                self.parameters, FAR * neighbours.support, self.records, sums, neighbours.entry, chunk.first,
-                chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
+                self.parameters, FAR * neighbours.support, self.records, self.private, sums, neighbours.entry,
+                chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
             )  # fmt: skip
 
         def finish(chunk: Chunk) -> None:
             self.module.finish(
-                self.parameters, self.records, sums, out, neighbours.particles(chunk), neighbours.entry, chunk.begin,
-                chunk.end, chunk.begin,
+                self.parameters, self.records, self.private, sums, out, neighbours.particles(chunk), neighbours.entry,
+                chunk.begin, chunk.end, chunk.begin,
             )  # fmt: skip
 
         threads = neighbours.threads

@@ -11,7 +11,7 @@ from sphear.engine.cache import compiled
 
 Array = np.ndarray[Any, Any]
 
-REACH = 2  # cells of half a support: fewer candidates than whole ones, see benchmarks/sweep.py
+REACH = 2  # cells of half a support: fewer candidates than whole ones, see benchmarks/lanes.py
 PADDING = 8  # room behind the last entry, so that eight candidates can always be read at once
 
 

@@ -12,7 +12,7 @@ from sphear.engine.threads import on_threads, thread_count
 from sphear.errors import SphearError
 from sphear.neighbours.cells import PADDING, cell_sort
 from sphear.neighbours.domain import Domain
-from sphear.neighbours.pair_list import Chunk, build_chunk
+from sphear.neighbours.pair_list import Chunk, build_chunk, room
 
 Array = np.ndarray[Any, Any]
 
@@ -106,18 +106,24 @@ class Neighbours:
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
 
-        def build(rows: tuple[int, int]) -> tuple[Chunk, int]:
+        # one piece of memory for the lists of all chunks: the system maps and clears smaller ones anew each time
+        size, most = room(self._cells, -(-self.count // parts), once)
+        memory = np.empty((len(ranges), size), np.int32)
+
+        def build(number: int) -> tuple[Chunk, int]:
             return build_chunk(
                 self._cells,
                 self._image,
                 self.entry,
-                *rows,
+                *ranges[number],
                 self.support,
+                memory[number],
+                most,
                 once=once,
                 keep_coincident=self._keep_coincident,
             )
 
-        built = on_threads(build, ranges, self.threads)
+        built = on_threads(build, range(len(ranges)), self.threads)
         for chunk, coincident in built:
             if coincident and not self._keep_coincident:
                 self._refuse_coincident(chunk)

@@ -85,6 +85,19 @@ class Chunk:
         return int(self.first[-1])
 
 
+def room(cells: CellSort, rows: int, once: bool) -> tuple[int, int]:
+    """How many entries the list of so many rows will hold, roughly, and how many candidates a row has at most.
+
+    The first is a guess from the mean density of the cells in use: a list grows where it does not suffice.
+    """
+    start, dimension = cells.start, len(cells.coordinates)
+    most = int((start[2 * REACH + 1 :] - start[: -2 * REACH - 1]).max()) * len(cells.rows) + SLACK
+    used = max(1, int(np.count_nonzero(np.diff(start))))
+    ball = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}[dimension] * REACH**dimension
+    share = 0.5 if once else 1.0
+    return int(1.1 * share * rows * len(cells.cell) / used * ball) + most, most
+
+
 def build_chunk(
     cells: CellSort,
     image: Array,
@@ -92,6 +105,8 @@ def build_chunk(
     begin: int,
     end: int,
     support: float,
+    neighbour: Array,
+    most: int,
     *,
     once: bool = False,
     keep_coincident: bool = False,
@@ -107,27 +122,22 @@ def build_chunk(
         begin: the first row.
         end: the row after the last.
         support: the distance within which two particles are neighbours.
+        neighbour: where the list is written, int32; if it is too short, a longer one takes its place.
+        most: candidates that a row has at most.
         once: list each pair from one side only.
         keep_coincident: list pairs at one place too.
     """
     build = list_module(len(cells.coordinates), once).build
     # the cells before a particle's own hold no entries after it
     cell_rows = cells.rows[cells.rows >= 0] if once and not image.any() else cells.rows
-    start, dimension = cells.start, len(cells.coordinates)
-    run = start[2 * REACH + 1 :] - start[: -2 * REACH - 1]
-    most = int(run.max()) * len(cells.rows) + SLACK
     rows = end - begin
-    # a first guess from the mean density of the cells in use; grown when it does not suffice, never overflowed
-    used = max(1, int(np.count_nonzero(np.diff(start))))
-    ball = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}[dimension] * REACH**dimension
-    share = 0.5 if once else 1.0
-    neighbour = np.empty(int(1.1 * share * rows * len(cells.cell) / used * ball) + most, np.int32)
     first = np.zeros(rows + 1, np.int64)
     low = -1.0 if keep_coincident else (1e-9 * support) ** 2
     row, count, coincident = begin, 0, 0
     while True:
         row, count, found = build(
-            *cells.coordinates, image, start, cell_rows, cells.cell, entry, first, neighbour, count, low, support**2,
+            *cells.coordinates, image, cells.start, cell_rows, cells.cell, entry, first, neighbour, count, low,
+            support**2,
             selection_table_once(), row, begin, end, most,
         )  # fmt: skip
         coincident += found

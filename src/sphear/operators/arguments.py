@@ -143,8 +143,8 @@ def _numbers(values: ArrayLike, name: str) -> Array:
 
 
 def _finite(array: Array, name: str) -> None:
-    bad = np.flatnonzero(~np.isfinite(array.reshape(len(array) if array.ndim else 1, -1)).all(axis=1))
-    if len(bad):
-        raise SphearError(
-            f"{name} must be finite, but {len(bad)} of {max(1, len(array))} are not, first particle {bad[0]}"
-        )
+    if np.isfinite(array).all():
+        return
+    rows = array.reshape(len(array) if array.ndim else 1, -1)
+    bad = np.flatnonzero(~np.isfinite(rows).all(axis=1))
+    raise SphearError(f"{name} must be finite, but {len(bad)} of {len(rows)} are not, first particle {bad[0]}")

@@ -14,7 +14,7 @@ from sphear.interactions import Gradient
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
-from sphear.operators.pipeline import Operation, Outcome, run
+from sphear.operators.pipeline import Operation, run
 from sphear.viscosity import ViscousTerm, uncorrected
 
 Array = np.ndarray[Any, Any]
@@ -60,6 +60,8 @@ class Particles:
         places = arguments.read_positions(positions, domain)
         given = None if volumes is None else arguments.read_property(volumes, "volumes", len(places))
         if isinstance(kernel, Kernel):
+            if spacing is not None:
+                raise SphearError(f"{kernel!r} has its own h: spacing goes with a kernel's name")
             chosen = arguments.read_kernel(kernel, h_over_dx, 1.0)
         else:
             dx = arguments.read_spacing(spacing, places, given, domain)
@@ -122,7 +124,14 @@ class Particles:
         if fallback not in (None, "uncorrected", "nan"):
             raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
         fields = {"volume": self.volumes, **fields}
-        outcome = self._run(operation, fields)
+        outcome = run(
+            operation,
+            self.neighbours,
+            fields,
+            plain=None if fallback is None else plain,
+            each_pair_once=self.each_pair_once,
+            dtype=self.precision,
+        )
         lacking = outcome.deficient
         if len(lacking) and fallback is None:
             place = ", ".join(f"{x:.6g}" for x in self.positions[lacking[0]])
@@ -130,11 +139,6 @@ class Particles:
                 f"{len(lacking)} of {len(self.positions)} particles have too few neighbours for {what}, the first is"
                 f" particle {lacking[0]} at ({place}): take a larger h, or ask for fallback 'uncorrected' or 'nan'"
             )
-        if len(lacking):
+        if fallback == "nan":
             outcome.values[lacking] = np.nan
-        if len(lacking) and fallback == "uncorrected":
-            outcome.values[lacking] = self._run(plain, fields).values[lacking]
         return outcome.values
-
-    def _run(self, operation: Operation, fields: dict[str, Array]) -> Outcome:
-        return run(operation, self.neighbours, fields, each_pair_once=self.each_pair_once, dtype=self.precision)

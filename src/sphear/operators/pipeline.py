@@ -81,6 +81,7 @@ def run(
     neighbours: Neighbours,
     fields: dict[str, Array],
     *,
+    plain: Operation | None = None,
     each_pair_once: bool = False,
     dtype: str = "float64",
 ) -> Outcome:
@@ -90,6 +91,8 @@ def run(
         operation: what is summed.
         neighbours: the pairs.
         fields: arrays (N,) or (N, k), by name; with `volume`.
+        plain: stands in for each stage at deficient particles, so that the next stage meets numbers there; it needs
+            no preparation and has as many stages.
         each_pair_once: compute both sides of a pair together where nothing is prepared for either.
         dtype: "float64" or "float32".
     """
@@ -97,6 +100,7 @@ def run(
         return _unprepared(operation, neighbours, fields, each_pair_once, dtype)
     prepared = Preparation(operation.preparation, neighbours, fields["volume"], dtype)
     deficient: list[Array] = []
+    lacking = np.empty(0, np.int64)
     result = np.empty((neighbours.count, 0))
     for number, stage in enumerate(operation.stages):
         known = fields if number == 0 else {**fields, "before": result}
@@ -110,5 +114,8 @@ def run(
             sweep.over(chunk, out, neighbours.particles(chunk), own)
 
         on_threads(job, neighbours.chunks, neighbours.threads)
+        lacking = np.sort(np.concatenate(deficient)) if deficient else np.empty(0, np.int64)
+        if plain is not None and len(lacking):
+            out[lacking] = Sweep(plain.stages[number], neighbours, known, dtype=dtype).everywhere()[lacking]
         result = out
-    return Outcome(result, np.sort(np.concatenate(deficient)) if deficient else np.empty(0, np.int64))
+    return Outcome(result, lacking)

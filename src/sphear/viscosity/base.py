@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 from sphear.algebra import Scalar, Vector, scale, subtract
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
+from sphear.errors import SphearError
 from sphear.interactions import Laplacian, ViscousAcceleration
 from sphear.kernels import Kernel
 
@@ -28,6 +29,11 @@ class ViscousTerm:
     own_correction: ClassVar[bool] = False  # carries a correction of its own and takes no other
     uses_second_derivatives: ClassVar[bool] = False
     varies_viscosity: ClassVar[bool] = False  # the formula has a rule for a viscosity that varies in space
+
+    def __post_init__(self) -> None:
+        eta = getattr(self, "eta", None)
+        if eta is not None and not 0 <= eta < float("inf"):
+            raise SphearError(f"eta of viscosity {self.name!r} must be zero or positive, not {eta}")
 
     def __repr__(self) -> str:
         """The card of the term: its formula, its source and what was measured of it."""

@@ -39,6 +39,7 @@ class Cleary(ViscousTerm):
     varies_viscosity = True
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if self.xi is not None and not self.xi > 0:
             raise SphearError(f"the factor xi of viscosity 'cleary' must be positive, not {self.xi}")
 

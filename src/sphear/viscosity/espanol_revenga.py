@@ -7,6 +7,7 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector, add, dot, scale, subtract
 from sphear.corrections import Correction
+from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm
 
@@ -34,6 +35,11 @@ class EspanolRevenga(ViscousTerm):
     source = "Español & Revenga 2003, Smoothed dissipative particle dynamics, Phys. Rev. E 67:026705, eq. 58"
     radial = True
     varies_viscosity = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not abs(self.bulk) < float("inf"):
+            raise SphearError(f"bulk of viscosity 'espanol_revenga' must be a finite number, not {self.bulk}")
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar

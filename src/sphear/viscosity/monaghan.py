@@ -7,6 +7,7 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector, dot, positive_part, scale, subtract
 from sphear.corrections import Correction
+from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.viscosity.base import ViscousTerm, regularised
 
@@ -42,6 +43,13 @@ class Monaghan(ViscousTerm):
     source = "Monaghan & Gingold 1983; Basa, Quinlan & Lastiwka 2009, eqs. 31, 32"
     radial = True
     varies_viscosity = True
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("alpha", "beta", "sound_speed"):
+            value = getattr(self, name)
+            if value is not None and not 0 <= value < float("inf"):
+                raise SphearError(f"{name} of viscosity 'monaghan' must be zero or positive, not {value}")
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar
