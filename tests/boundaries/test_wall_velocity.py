@@ -35,7 +35,8 @@ def continued(rule: str, profile: Callable[[Array], Array], axis: int = 1, **wal
     a, b = np.zeros((2, 2)), np.zeros((2, 2))
     WALL_VELOCITIES[rule](x, v, lower, upper, axis, velocities, SPACING, a, b)
     along = 1 - axis
-    return velocities[:, [along]] - a[:, [along]] * DEPTHS + b[:, [along]] * DEPTHS**2
+    continued: Array = velocities[:, [along]] - a[:, [along]] * DEPTHS + b[:, [along]] * DEPTHS**2
+    return continued
 
 
 def expected(profile: Callable[[Array], Array]) -> Array:

@@ -10,6 +10,7 @@ import pytest
 from sphear import CORRECTIONS, KERNELS, VISCOSITY, __version__
 from sphear.cases.fields import FIELDS
 from sphear.cases.patch_test import PatchTest
+from sphear.cli.catalogue import CASES
 from sphear.studies import ITEMS, PAPERS
 from sphear.viscosity.card import measured
 
@@ -17,7 +18,7 @@ Run = Callable[..., Any]
 
 REGISTRIES = {"kernels": KERNELS, "viscosity": VISCOSITY, "corrections": CORRECTIONS}
 STUDIES = [f"{paper} {item}" for paper, items in ITEMS.items() for item in items]
-NAMES = {**{kind: list(registry) for kind, registry in REGISTRIES.items()}, "studies": STUDIES, "cases": ["patch-test"]}
+NAMES = {**{kind: list(registry) for kind, registry in REGISTRIES.items()}, "studies": STUDIES, "cases": list(CASES)}
 SINGULAR = {
     "kernel": "kernels",
     "viscous": "viscosity",

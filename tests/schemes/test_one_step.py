@@ -142,7 +142,8 @@ class Plain:
             grad_w = (self.w(r / self.h)[1] / np.where(r > 0, r, 1))[:, None] * d
             grad_u = np.einsum("k,ka,kb->ab", volume, u, grad_w)
             tau[e] = mu * (grad_u + grad_u.T - 2 / 3 * np.trace(grad_u) * np.eye(2))
-        return np.einsum("e,eab,ieb->ia", volume, tau, gradient) / rho[:, None]
+        divergence: Array = np.einsum("e,eab,ieb->ia", volume, tau, gradient)
+        return divergence / rho[:, None]
 
     def step(self, x: Array, v: Array, dt: float) -> tuple[Array, Array, Array, Array]:
         """The midpoint rule."""

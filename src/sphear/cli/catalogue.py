@@ -16,7 +16,14 @@ _SINGULAR = {
     "viscous": "viscosity",
 }
 
-CASES = {"patch-test": "the Laplacian of a known field on a lattice or on jittered particles, against the exact one"}
+# the patch test has a command of its own, the flows are run by `sphear run`; their summaries stand here so that listing
+# them imports nothing
+CASES = {
+    "patch-test": "the Laplacian of a known field on a lattice or on jittered particles, against the exact one",
+    "poiseuille": "plane Poiseuille flow from rest, against its start-up series",
+    "couette": "plane Couette flow from rest, against its start-up series",
+    "taylor-green": "the decaying Taylor-Green vortex in a periodic box",
+}
 
 
 def kind_of(name: str) -> str:
@@ -95,6 +102,11 @@ def _described_study(name: str) -> dict[str, Any]:
 def _described_case(name: str) -> dict[str, Any]:
     if name not in CASES:
         raise unknown("case", name, CASES)
+    if name != "patch-test":
+        from sphear.cases.flow import FLOWS
+
+        flow = FLOWS[name].settings().model_dump(mode="json")
+        return {"kind": "cases", "name": name, "summary": CASES[name], "settings": flow}
     from sphear.cases.fields import FIELDS
     from sphear.cases.patch_test import PatchTest
 

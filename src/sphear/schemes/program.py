@@ -240,16 +240,18 @@ class _Sweeps:
         self.imports.append(f"from {module.__name__} import sweep as sweep{number}")
         columns = [f"positions[e, {axis}]" for axis in range(self.dimension)]
         columns += [_COLUMNS[name].format(k=k) for name, k in formula.columns]
+        private = [_COLUMNS[name].format(k=k) for name, k in formula.private]
         self.before = (("before", (0.0,) * len(formula.finish_outputs)),)
-        records = f"records{number}"
         return [
-            f"{records} = np.empty((entries, {-(-len(columns) // 4) * 4}))",
+            f"records{number} = np.empty((entries, {-(-len(columns) // 4) * 4}))",
+            f"private{number} = np.empty((entries, {len(private)}))",
             "for s in range(entries):",
             "    e = order[s]",
             "    i = source[e]",
-            *(f"    {records}[s, {column}] = {value}" for column, value in enumerate(columns)),
+            *(f"    records{number}[s, {column}] = {value}" for column, value in enumerate(columns)),
+            *(f"    private{number}[s, {column}] = {value}" for column, value in enumerate(private)),
             f"{result} = np.empty((len(entry), {len(formula.finish_outputs)}))",
-            f"sweep{number}(constants[{number}], far, {records}, {prepared}, {result}, "
+            f"sweep{number}(constants[{number}], far, records{number}, private{number}, {prepared}, {result}, "
             f"{'numbers' if result == 'prepared' else 'target'}, entry, first, neighbour, 0, len(entry), 0)",
         ]
 

@@ -27,7 +27,6 @@ class FlowCase:
 
     Attributes:
         name: on the command line.
-        summary: a line about it.
         defaults: settings that differ from the general ones.
         problem: what is to be computed, from the settings.
         exact: the reference velocity (N, d) at positions (N, d) and a time.
@@ -38,7 +37,6 @@ class FlowCase:
     """
 
     name: str
-    summary: str
     defaults: dict[str, Any]
     problem: Callable[[FlowSettings], Problem]
     exact: Callable[[FlowSettings, Array, float], Array]

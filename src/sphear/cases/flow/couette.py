@@ -66,7 +66,6 @@ def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, flo
 
 COUETTE = FlowCase(
     name="couette",
-    summary="plane Couette flow from rest, against its start-up series",
     defaults={"reynolds": 1.0, "resolution": 20},
     problem=problem,
     exact=exact,

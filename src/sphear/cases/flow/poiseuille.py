@@ -74,7 +74,6 @@ def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, flo
 
 POISEUILLE = FlowCase(
     name="poiseuille",
-    summary="plane Poiseuille flow from rest, against its start-up series",
     defaults={"reynolds": 0.5, "resolution": 20},
     problem=problem,
     exact=exact,

@@ -62,7 +62,6 @@ def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, flo
 
 TAYLOR_GREEN = FlowCase(
     name="taylor-green",
-    summary="the decaying Taylor-Green vortex in a periodic box",
     defaults={"reynolds": 100.0, "resolution": 50, "until": 0.5},
     problem=problem,
     exact=exact,
