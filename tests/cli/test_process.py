@@ -21,6 +21,14 @@ LONG = ("patch-test", "--sizes", "30", "--jitter", "0.3", "--seeds", "1000000")
 SENTENCE = "sphear: interrupted; nothing half-written is left"
 
 
+@pytest.fixture(autouse=True)
+def interruptible() -> Iterator[None]:
+    """A process whose parent ignores Ctrl-C ignores it too, as do all that a shell has put into the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def started(*arguments: str, module: tuple[str, ...] = ("-m", "sphear"), **options: Any) -> subprocess.Popen[str]:
     pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     process: subprocess.Popen[str] = subprocess.Popen(
