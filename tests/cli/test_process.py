@@ -39,7 +39,10 @@ def started(*arguments: str, module: tuple[str, ...] = ("-m", "sphear"), **optio
 
 def finished(*arguments: str, **options: Any) -> tuple[int, str, str]:
     process = started(*arguments, **options)
-    out, err = process.communicate(timeout=60)
+    try:
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
     return process.returncode, out or "", err or ""
 
 
