@@ -1,7 +1,8 @@
-"""`sphear run`: its JSON, its files, and what it refuses."""
+"""`sphear run`: one document, files, and one sentence for each mistake."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,59 +11,86 @@ import pytest
 
 Run = Callable[..., Any]
 
-SHORT = ("run", "poiseuille", "--until", "0.02")
-
 
 def test_json_is_one_document(sphear: Run) -> None:
-    found = sphear(*SHORT, "--json").json()
-    assert list(found) == ["case", "settings", "metrics", "performance"]
-    assert found["settings"]["until"] == 0.02
-    assert found["metrics"]["time"] == pytest.approx(0.02, rel=0.5)
+    result = sphear("run", "poiseuille", "--until", "0.1", "--json").json()
+    assert list(result) == ["case", "settings", "metrics", "performance"]
+    assert result["case"] == "poiseuille"
+    assert result["settings"]["until"] == 0.1
+    assert result["metrics"]["end"] == "time"
+    assert result["performance"]["particles"] == 400
 
 
-def test_set_changes_any_setting(sphear: Run) -> None:
-    found = sphear(*SHORT, "--set", "wall-velocity=mirror", "--set", "h_over_dx=1.3", "--json").json()
-    assert (found["settings"]["wall_velocity"], found["settings"]["h_over_dx"]) == ("mirror", pytest.approx(1.3))
+def test_settings_by_option_and_by_set(sphear: Run) -> None:
+    command = ("run", "poiseuille", "--json", "--set", "until=0.05", "--set", "sound-speed = 50")
+    settings = sphear(*command, "--resolution", "10", "-v", "E", "--reynolds", "0.25").json()["settings"]
+    assert (settings["until"], settings["sound_speed"], settings["resolution"]) == (0.05, 50.0, 10)
+    assert (settings["viscosity"], settings["reynolds"]) == ("morris", 0.25)
 
 
-def test_files_are_written(sphear: Run, tmp_path: Path) -> None:
-    assert sphear(*SHORT, "--out", tmp_path / "results").status == 0
-    written = {path.name for path in (tmp_path / "results").iterdir()}
-    assert written == {"poiseuille.json", "poiseuille.csv", "poiseuille.png", "poiseuille.svg"}
+def test_a_table_says_what_is_computed_and_how_it_ended(sphear: Run) -> None:
+    outcome = sphear("run", "couette", "--until", "0.01", "--resolution", "10")
+    assert (outcome.status, outcome.err) == (0, "")
+    for text in ("couette: 100 particles, Re = 1", "sound speed", "time step", "rms error", "End: time.", "a second"):
+        assert text in outcome.out
 
 
-def test_the_start_names_what_was_chosen(sphear: Run) -> None:
-    out = sphear(*SHORT).out
-    for part in ("400 particles", "Re = 0.5", "nu = 1", "sound speed 20", "neighbours", "viscous limit"):
-        assert part in out
+def test_underscores_do_for_hyphens(sphear: Run) -> None:
+    command = ("run", "taylor_green", "--resolution", "10", "--set", "max_steps=2", "--json")
+    assert sphear(*command).json()["case"] == "taylor-green"
 
 
-@pytest.mark.parametrize(
-    ("arguments", "part"),
-    [
-        (["poiseuile"], "did you mean poiseuille"),
-        (["poiseuille", "--set", "kernal=gaussian"], "did you mean kernel"),
-        (["poiseuille", "--set", "kernel"], "KEY=VALUE"),
-        (["poiseuille", "--set", "kernel=gausian"], "gaussian"),
-        (["poiseuille", "--viscosity", "moris"], "did you mean morris"),
-        (["poiseuille", "--reynolds", "0"], "reynolds"),
-        (["poiseuille", "--reynolds", "nan"], "reynolds"),
-        (["poiseuille", "--until", "-1"], "until"),
-        (["poiseuille", "--set", "time_step=1"], "beyond the viscous limit"),
-        (["poiseuille", "--resolution", "2"], "too coarse"),
-        (["poiseuille", "--set", "wall_velocity=cubic"], "wall velocity"),
-        (["poiseuille", "--viscosity", "oger", "--correction", "shepard"], "its own correction"),
-    ],
-)
-def test_mistakes_are_one_sentence(sphear: Run, arguments: list[str], part: str) -> None:
-    outcome = sphear("run", *arguments)
-    assert (outcome.status, outcome.out) == (2, "")
-    assert part in outcome.err
-    assert outcome.err.startswith("sphear: ")
-    assert outcome.err.count("\n") == 1
+def test_files(sphear: Run) -> None:
+    outcome = sphear("run", "poiseuille", "--until", "0.1", "--json", "--out", "results")
+    files = {path.name for path in Path("results").iterdir()}
+    assert {"poiseuille.json", "poiseuille.csv", "poiseuille.png", "poiseuille.svg"} <= files
+    written = json.loads(Path("results/poiseuille.json").read_text())
+    history = written.pop("history")
+    assert written == outcome.json()
+    assert history[-1]["rms_error"] == written["metrics"]["rms_error"]
+    assert len(Path("results/poiseuille.csv").read_text().splitlines()) > 5
 
 
-def test_a_time_step_beyond_its_limit_is_taken_when_forced(sphear: Run) -> None:
-    outcome = sphear("run", "poiseuille", "--set", "time_step=0.0009", "--set", "max_steps=3", "--force")
+def test_a_forced_time_step_is_said(sphear: Run) -> None:
+    outcome = sphear("run", "poiseuille", "--set", "time_step=0.002", "--set", "max_steps=1", "--force")
     assert outcome.status == 0
     assert "warning: the time step is beyond its limit" in outcome.out
+
+
+def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
+    command = ("run", "poiseuille", "--set", "sound_speed=0.2", "--until", "5", "--json")
+    result = sphear(*command).json()
+    assert result["metrics"]["end"].startswith("failed: ")
+    assert result["metrics"]["failure_time"] > 0
+
+
+WRONG: dict[str, tuple[list[str], str]] = {
+    "no case": ([], "missing argument 'CASE'"),
+    "unknown case": (["poisseuille"], "there is no case named 'poisseuille': did you mean poiseuille"),
+    "unknown key": (["poiseuille", "--set", "kernl=cubic"], "no setting named 'kernl': did you mean kernel"),
+    "no value": (["poiseuille", "--set", "kernel"], "--set takes KEY=VALUE"),
+    "unknown term": (["poiseuille", "-v", "moris"], "no viscosity named 'moris': did you mean morris"),
+    "unknown kernel": (["poiseuille", "--set", "kernel=cubix"], "no kernel named 'cubix'"),
+    "unknown wall": (["poiseuille", "--set", "wall_velocity=liner"], "no wall velocity named 'liner'"),
+    "unknown state": (["poiseuille", "--set", "equation_of_state=tate"], "the setting equation_of_state should be"),
+    "no number": (["poiseuille", "--set", "reynolds=some"], "the setting reynolds should be a valid number"),
+    "Re is zero": (["poiseuille", "--reynolds", "0"], "the setting reynolds should be greater than 0, not 0"),
+    "Re is negative": (["couette", "--reynolds", "-1"], "the setting reynolds should be greater than 0, not -1"),
+    "Re is infinite": (["couette", "--reynolds", "inf"], "the setting reynolds should be a finite number"),
+    "until is nan": (["couette", "--until", "nan"], "the setting until should be"),
+    "too coarse": (["poiseuille", "--resolution", "3"], "the resolution of 3 is too coarse"),
+    "time step": (["poiseuille", "--set", "time_step=1"], "the time step of 1 is beyond the viscous limit of"),
+    "corrected twice": (["poiseuille", "-v", "oger", "--correction", "shepard"], "carries its own correction"),
+    "no folder": (["poiseuille", "--out", " "], "the output folder needs a name"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+@pytest.mark.parametrize("json_too", [False, True])
+def test_a_mistake_is_one_sentence(sphear: Run, case: str, json_too: bool) -> None:
+    arguments, message = WRONG[case]
+    outcome = sphear("run", *arguments, *(["--json"] if json_too else []))
+    assert (outcome.status, outcome.out) == (2, "")
+    assert message in outcome.err
+    assert len(outcome.err.strip().splitlines()) == 1
+    assert not list(Path.cwd().iterdir())
