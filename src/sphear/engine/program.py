@@ -5,53 +5,18 @@ from __future__ import annotations
 from sphear.engine.flags import lane_count, options_text
 from sphear.engine.formula import TracedFormula
 
-_SWEEP = '''
+_HEAD = '''
 """{title}"""
-
-from numba import njit
-from sphear.engine.lanes import exp, first_lanes, lane_zeros, lanes_sum, positive_part, sqrt, where_less
-from sphear.engine.records import record_loader
-
-load = record_loader({width}, {loaded})
-zeros = lane_zeros({dtype!r}, {width})
-
-
-@njit({options})
-def sweep(parameters, far, records, private, own, out, target, entry, first, neighbour, begin, end, origin):
-    """out[target[row - origin]] = finish(sum over the neighbours of row), for the rows begin ... end of a chunk."""
-    {parameters}
-    for row in range(begin, end):
-        i = entry[row]
-        {own}
-        {zeros}
-        stop = first[row - origin + 1]
-        for k in range(first[row - origin], stop, {width}):
-            {other}= load(records, neighbour, k)
-            {differences}
-            r2 = {square}
-            {pair}
-            {accumulate}
-        {total}
-        {finish}
-        {store}
-'''
-
-
-_BOTH_SIDES = '''
-"""{title}, each pair once"""
 
 from numba import njit
 from sphear.engine.lanes import exp, first_lanes, lane_zeros, lanes_sum, positive_part, sqrt, where_less
 from sphear.engine.records import record_adder, record_loader
 
 load = record_loader({width}, {loaded})
-add = record_adder({width}, {sums})
 zeros = lane_zeros({dtype!r}, {width})
+'''
 
-
-@njit({options})
-def sweep(parameters, far, records, private, sums, entry, first, neighbour, begin, end, origin):
-    """Add to sums[i] and sums[j] what each listed pair (i, j) contributes to either."""
+_PAIRS_OF_ROW = """
     {parameters}
     for row in range(begin, end):
         i = entry[row]
@@ -64,20 +29,41 @@ def sweep(parameters, far, records, private, sums, entry, first, neighbour, begi
             r2 = {square}
             {pair}
             {accumulate}
-            add(sums, neighbour, k, ({reverse}))
-        {own_sums}
+"""
+
+_SWEEP = f'''{_HEAD}
+
+@njit({{options}})
+def sweep(parameters, far, records, private, own, out, target, entry, first, neighbour, begin, end, origin):
+    """out[target[row - origin]] = finish(sum over the neighbours of row), for the rows begin ... end of a chunk."""
+    {_PAIRS_OF_ROW.strip()}
+        {{total}}
+        {{finish}}
+        {{store}}
+'''
+
+_BOTH_SIDES = f'''{_HEAD}
+add = record_adder({{width}}, {{sums}})
 
 
-@njit({options})
+@njit({{options}})
+def sweep(parameters, far, records, private, sums, entry, first, neighbour, begin, end, origin):
+    """Add to sums[i] and sums[j] what each listed pair (i, j) contributes to either."""
+    {_PAIRS_OF_ROW.strip()}
+            add(sums, neighbour, k, ({{reverse}}))
+        {{own_sums}}
+
+
+@njit({{options}})
 def finish(parameters, records, private, sums, out, target, entry, begin, end, origin):
     """out[target[row - origin]] = finish(sums[i]), for the rows begin ... end of a chunk."""
-    {parameters}
+    {{parameters}}
     for row in range(begin, end):
         i = entry[row]
-        {own}
-        {total}
-        {finish}
-        {store}
+        {{own}}
+        {{total}}
+        {{finish}}
+        {{store}}
 '''
 
 
