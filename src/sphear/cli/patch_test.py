@@ -83,10 +83,11 @@ def _settings(**values: Any) -> PatchTest:
         raise SphearError(f"{name} {message}, not {first['input']!r}") from None
 
 
-def _title(test: PatchTest) -> str:
-    particles = f"jitter {test.jitter:g} dx" if test.jitter else "lattice"
+def _title(test: PatchTest) -> tuple[str, str]:
+    """What is differentiated, and on which particles."""
     acted = f"velocity of stream function {test.field}" if test.velocity else test.field
-    return f"Patch test, {acted}, {test.dimension}-D, {test.kernel}, {particles}, edges {test.edges}"
+    particles = f"jitter {test.jitter:g} dx" if test.jitter else "lattice"
+    return f"Patch test, {acted}", f"{test.dimension}-D, {test.kernel}, {particles}, edges {test.edges}"
 
 
 def _table(test: PatchTest, rows: list[dict[str, Any]]) -> Any:
@@ -101,7 +102,7 @@ def _table(test: PatchTest, rows: list[dict[str, Any]]) -> Any:
         Column("order", "order of L1", "+.2f"),
         Column("paper", "L1 / M", ".2e"),
     )
-    return Table(_title(test), columns, rows)
+    return Table(", ".join(_title(test)), columns, rows)
 
 
 def _figure(test: PatchTest, rows: list[dict[str, Any]]) -> Figure:
@@ -112,4 +113,6 @@ def _figure(test: PatchTest, rows: list[dict[str, Any]]) -> Figure:
                [row["l1"] for row in rows if row["viscosity"] == name])
         for name in dict.fromkeys(row["viscosity"] for row in rows)
     }  # fmt: skip
-    return loglog_convergence(series, "particles a side", "L1-relative error", _title(test), (-2, -1, 0))
+    acted, particles = _title(test)
+    title = f"{acted if len(acted) < 50 else acted[:47] + '...'}\n{particles}"
+    return loglog_convergence(series, "particles a side", "L1-relative error", title, (-2,))
