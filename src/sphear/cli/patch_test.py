@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
+from sphear.cli.settings import checked
 from sphear.errors import SphearError
 
 if TYPE_CHECKING:
@@ -70,17 +71,10 @@ def _sizes(text: str) -> tuple[int, ...]:
 
 def _settings(**values: Any) -> PatchTest:
     """The settings, checked: the first that is wrong in one sentence."""
-    from pydantic import ValidationError
-
     from sphear.cases.patch_test import PatchTest
 
-    try:
+    with checked():
         return PatchTest(**values)
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = str(first["loc"][0]).replace("_", "-")
-        message = first["msg"].removeprefix("Input ")
-        raise SphearError(f"{name} {message}, not {first['input']!r}") from None
 
 
 def _title(test: PatchTest) -> tuple[str, str]:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import difflib
+import math
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
+from sphear.cli.settings import checked
 from sphear.errors import SphearError
+from sphear.names import unknown
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,36 +70,28 @@ def _changes(texts: list[str]) -> dict[str, str]:
 
 def _settings(case: Any, changes: dict[str, Any]) -> Any:
     """The settings, checked: the first that is wrong in one sentence."""
-    from pydantic import ValidationError
-
     from sphear.schemes.settings import FlowSettings
 
     known = list(FlowSettings.model_fields)
     for key in changes:
         if key not in known:
-            near = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {near[0]}? " if near else ""
-            raise SphearError(f"there is no setting named {key!r}: {hint}settings are {', '.join(known)}")
-    try:
+            raise unknown("setting", key, known)
+    with checked("the setting "):
         return case.settings(**changes)
-    except ValidationError as error:
-        first = error.errors()[0]
-        message = first["msg"].removeprefix("Input ")
-        raise SphearError(f"the setting {first['loc'][0]} {message}, not {first['input']!r}") from None
 
 
 def _start(run: FlowRun) -> str:
     """What is printed before the first step."""
     flow, settings = run.flow, run.settings
-    limit = min(flow.limits, key=flow.limits.__getitem__).replace("_", "-")
-    neighbours = 3.14159 * (flow.kernel.radius / flow.problem.spacing) ** 2 - 1
+    limit, longest = min(flow.limits.items(), key=lambda item: item[1])
+    neighbours = math.pi * (flow.kernel.radius / flow.problem.spacing) ** 2 - 1
     lines = [
         f"{run.case.name}: {len(flow.positions)} particles, Re = {settings.reynolds:g},"
         f" nu = {flow.problem.kinematic_viscosity:g}, {settings.viscosity}, correction {settings.correction}",
         f"  sound speed {flow.sound_speed:g}, about {neighbours:.0f} neighbours, time step {flow.time_step:.4g}"
-        f" ({limit} limit {flow.limits[limit.replace('-', '_')]:.4g})",
+        f" ({limit.replace('_', '-')} limit {longest:.4g})",
     ]
-    if settings.force and flow.time_step > min(flow.limits.values()):
+    if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
     if settings.until is not None:
         steps = settings.until * run.unit / flow.time_step

@@ -15,7 +15,7 @@ from sphear.engine.cache import generated_module
 from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
 from sphear.engine.program import sweep_text
 from sphear.engine.records import empty_records, pack
-from sphear.engine.structure import leaves, parameters
+from sphear.engine.structure import parameters
 from sphear.engine.threads import on_threads
 
 if TYPE_CHECKING:
@@ -153,8 +153,3 @@ def sweep(
 ) -> Array:
     """The interaction summed over the neighbours of every particle, (N, numbers of its result)."""
     return Sweep(interaction, neighbours, fields, each_pair_once=each_pair_once, dtype=dtype).everywhere()
-
-
-def width(structure: Any) -> int:
-    """How many numbers a structure holds."""
-    return len(list(leaves(structure)))
