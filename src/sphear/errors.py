@@ -9,3 +9,7 @@ class SphearError(ValueError):
 
 class TooFewNeighboursError(SphearError):
     """Some particles have too few (or too badly placed) neighbours for a correction or a fit."""
+
+
+class Interrupted(Exception):
+    """Ctrl-C in the midst of what can go on later; the message is one sentence that says how."""

@@ -1,4 +1,4 @@
-"""A box whose sides are periodic or walls: which images of particles there are beyond them."""
+"""A box whose sides are periodic or walls: which images of particles there are beyond them and on them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from sphear.errors import SphearError
 Array = np.ndarray[Any, Any]
 Side = Literal["periodic", "walls"]
 
-PERIODIC, WALLS = 0, 1
+PERIODIC, MIRRORS, OPEN = 0, 1, 2
+ON_WALL = 64  # the bit of entries that stand on a wall
 
 
 @dataclass(frozen=True)
@@ -24,9 +25,9 @@ class Box:
     Attributes:
         lower: the lower corner.
         upper: the upper corner.
-        sides: "periodic" or "walls", one an axis; walls along one axis at most.
-        lower_velocity: of the wall at the lower end; () is at rest.
-        upper_velocity: of the wall at the upper end; () is at rest.
+        sides: "periodic" or "walls", one an axis.
+        lower_velocity: of the wall at the lower end of the last axis that has walls; () is at rest.
+        upper_velocity: of the wall at its upper end; () is at rest.
 
     Raises:
         SphearError: the corners, sides and velocities do not belong together.
@@ -53,73 +54,95 @@ class Box:
         for velocity in (self.lower_velocity, self.upper_velocity):
             if velocity and len(velocity) != dimension:
                 raise SphearError(f"the velocity of a wall has {dimension} components, not {len(velocity)}")
-        if self.sides.count("walls") > 1:
-            raise SphearError("a box has walls along one axis at most: mirror particles know no corners")
 
     @property
-    def wall_axis(self) -> int:
-        """The axis that ends at walls; -1 if none does."""
-        return self.sides.index("walls") if "walls" in self.sides else -1
+    def wall_axes(self) -> tuple[int, ...]:
+        """The axes that end at walls."""
+        return tuple(axis for axis, side in enumerate(self.sides) if side == "walls")
 
-    def arrays(self) -> tuple[Array, Array, Array, Array]:
-        """Lower and upper corner, the kinds of sides and the walls' velocities, (2, d), for compiled code."""
-        kinds = np.array([WALLS if side == "walls" else PERIODIC for side in self.sides])
-        at_rest = (0.0,) * len(self.lower)
-        velocities = np.array([self.lower_velocity or at_rest, self.upper_velocity or at_rest], np.float64)
+    def arrays(self, mirrored: bool = True) -> tuple[Array, Array, Array, Array]:
+        """Lower and upper corner, the kinds of sides and the walls' velocities, (d, 2, d), for compiled code.
+
+        Args:
+            mirrored: whether particles have mirror images at walls; else there is nothing beyond them.
+        """
+        dimension = len(self.lower)
+        kinds = np.array([(MIRRORS if mirrored else OPEN) if side == "walls" else PERIODIC for side in self.sides])
+        velocities = np.zeros((dimension, 2, dimension))
+        for axis in self.wall_axes[-1:]:
+            for side, velocity in enumerate((self.lower_velocity, self.upper_velocity)):
+                velocities[axis, side] = velocity or 0.0
         return np.array(self.lower, np.float64), np.array(self.upper, np.float64), kinds, velocities
 
 
 @compiled
-def with_images(x, lower, upper, kinds, reach):  # type: ignore[no-untyped-def]
+def _fill(x, lower, upper, kinds, reach, on_wall, positions, source, wall):  # type: ignore[no-untyped-def]
+    """Write the entries of `with_images`; their number, or -1 if there is no room for all."""
+    count, dimension = x.shape
+    for i in range(count):
+        source[i], wall[i] = i, 0
+        for axis in range(dimension):
+            inside = x[i, axis]
+            if kinds[axis] == 0 and not lower[axis] <= inside < upper[axis]:  # a remainder takes its time
+                inside = lower[axis] + (inside - lower[axis]) % (upper[axis] - lower[axis])
+            positions[i, axis] = inside
+    entries = count
+    for axis in range(dimension):
+        if kinds[axis] == 2:
+            continue
+        low, high = lower[axis], upper[axis]
+        period = high - low
+        for e in range(entries):
+            at = positions[e, axis]
+            for side in range(2):
+                # how far beyond a side its first image is: that of the other side's particles, or of its own
+                beyond = at - low if (kinds[axis] == 0) == (side == 1) else high - at
+                image = 1
+                while 0.0 <= beyond < reach and (kinds[axis] == 0 or image < 3):
+                    place = high + beyond if side else low - beyond
+                    on = image == 2 and kinds[axis] == 1
+                    if on:
+                        place = high if side else low
+                    if not on or abs(at - place) < on_wall:
+                        if entries == len(source):
+                            return -1
+                        for other in range(dimension):
+                            positions[entries, other] = positions[e, other]
+                        positions[entries, axis] = place
+                        source[entries] = source[e]
+                        wall[entries] = wall[e]
+                        if kinds[axis] == 1:
+                            wall[entries] |= (1 << (2 * axis + side)) | (64 if on else 0)
+                        entries += 1
+                    image += 1
+                    if kinds[axis] == 0:
+                        beyond += period
+    return entries
+
+
+@compiled
+def with_images(x, lower, upper, kinds, reach, on_wall):  # type: ignore[no-untyped-def]
     """Particles (N, d), moved by whole periods into the box, and their images within `reach` beyond its sides.
+
+    Args:
+        x: positions of the particles.
+        lower: the lower corner.
+        upper: the upper corner.
+        kinds: of the sides, one an axis.
+        reach: how far beyond its sides images are wanted.
+        on_wall: particles nearer to a mirroring wall than this have an image on the wall too; 0 for none.
 
     Returns:
         positions: (E, d), the particles first.
         source: (E,), the particle that each is an image of.
-        wall: (E,), 0 for particles and periodic images, 1 for mirror images at the lower wall, 2 at the upper one.
-        depth: (E,), how far beyond its wall a mirror image lies.
+        wall: (E,), the walls that an image was reflected at, bit 2 axis + side, with bit 6 for images on a wall.
     """
     count, dimension = x.shape
-    room = 2 * count + 1000
-    positions = np.empty((room, dimension))
-    source = np.empty(room, np.int32)
-    wall = np.zeros(room, np.int8)
-    depth = np.zeros(room)
-    for i in range(count):
-        source[i] = i
-        for axis in range(dimension):
-            period = upper[axis] - lower[axis]
-            inside = x[i, axis]
-            if kinds[axis] == 0:
-                inside = lower[axis] + (inside - lower[axis]) % period
-            positions[i, axis] = inside
-    entries = count
-    for axis in range(dimension):
-        period = upper[axis] - lower[axis]
-        images = int(np.ceil(reach / period)) if kinds[axis] == 0 else 1
-        for e in range(entries):
-            for image in range(1, images + 1):
-                for side in range(2):
-                    at = positions[e, axis]
-                    if kinds[axis] == 0:
-                        place = at + image * period if side else at - image * period
-                    else:
-                        place = 2.0 * upper[axis] - at if side else 2.0 * lower[axis] - at
-                    beyond = place - upper[axis] if side else lower[axis] - place
-                    if beyond < 0.0 or beyond >= reach:
-                        continue
-                    if entries == room:
-                        positions = np.concatenate((positions, np.empty((room, dimension))))
-                        source = np.concatenate((source, np.empty(room, np.int32)))
-                        wall = np.concatenate((wall, np.zeros(room, np.int8)))
-                        depth = np.concatenate((depth, np.zeros(room)))
-                        room *= 2
-                    for other in range(dimension):
-                        positions[entries, other] = positions[e, other]
-                    positions[entries, axis] = place
-                    source[entries] = source[e]
-                    wall[entries], depth[entries] = wall[e], depth[e]
-                    if kinds[axis] != 0:
-                        wall[entries], depth[entries] = 1 + side, beyond
-                    entries += 1
-    return positions[:entries], source[:entries], wall[:entries], depth[:entries]
+    room = count + count // 4 + 100
+    while True:
+        # anew for each attempt: an array that a loop replaces is counted at each of its turns
+        positions, source, wall = np.empty((room, dimension)), np.empty(room, np.int32), np.empty(room, np.uint8)
+        entries = _fill(x, lower, upper, kinds, reach, on_wall, positions, source, wall)
+        if entries >= 0:
+            return positions[:entries], source[:entries], wall[:entries]
+        room *= 2

@@ -6,7 +6,9 @@ import io
 import os
 import sys
 
-from sphear.errors import SphearError
+from sphear.errors import Interrupted, SphearError
+
+INTERRUPTED = 130
 
 
 def main() -> None:
@@ -24,7 +26,9 @@ def main() -> None:
         _fail(str(error), 2)
     except KeyboardInterrupt:
         exec("")  # without it Python, where Ctrl-C came while it ran text, would end by the signal, not by the status
-        _fail("interrupted; nothing half-written is left", 130)
+        _fail("interrupted; nothing half-written is left", INTERRUPTED)
+    except Interrupted as error:
+        _fail(str(error), INTERRUPTED)
     except MemoryError:
         _fail("there is not enough memory for this", 1)
     except BrokenPipeError:  # the reader, such as `head`, has seen enough

@@ -11,6 +11,7 @@ from sphear.cli.patch_test import patch_test
 from sphear.cli.reproduce import reproduce
 from sphear.cli.run import run as run_case
 from sphear.cli.show import show
+from sphear.cli.sweep import sweep
 from sphear.errors import SphearError
 
 # what Typer raises for wrong options; it is not under a public name of its own
@@ -30,6 +31,7 @@ app.command("show")(show)
 app.command("patch-test")(patch_test)
 app.command("reproduce")(reproduce)
 app.command("run")(run_case)
+app.command("sweep")(sweep)
 
 
 def _version(wanted: bool) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,15 +18,9 @@ if TYPE_CHECKING:
 
 def print_json(value: Any) -> None:
     """The value as JSON on stdout; numbers that are not finite, which JSON does not know, as null."""
-    print(json.dumps(_finite(value), indent=2, allow_nan=False))
+    from sphear.results.finite import finite
 
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {key: _finite(item) for key, item in value.items()}
-    return [_finite(item) for item in value] if isinstance(value, list | tuple) else value
+    print(json.dumps(finite(value), indent=2, allow_nan=False))
 
 
 def is_terminal(stream: TextIO | None) -> bool:
@@ -78,7 +71,9 @@ def write(
     out: OutputFolder, name: str, result: Any, tables: Sequence[Table], figures: Mapping[str, Callable[[], Figure]]
 ) -> None:
     """The numbers as JSON, the tables as CSV, the figures as PNG and SVG."""
-    out.write_text(f"{name}.json", json.dumps(_finite(result), indent=2, ensure_ascii=False) + "\n")
+    from sphear.results.finite import finite
+
+    out.write_text(f"{name}.json", json.dumps(finite(result), indent=2, ensure_ascii=False) + "\n")
     for number, table in enumerate(tables):
         out.write_table(name if number == 0 else f"{name}-{number + 1}", table)
     for figure, draw in figures.items():

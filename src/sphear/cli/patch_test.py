@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
-from sphear.cli.settings import checked
+from sphear.checked import checked
 from sphear.errors import SphearError
 
 if TYPE_CHECKING:

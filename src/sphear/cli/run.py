@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
-from sphear.cli.settings import checked
-from sphear.errors import SphearError
-from sphear.names import unknown
+from sphear.cli.settings import changes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -20,7 +18,7 @@ if TYPE_CHECKING:
 
 def run(
     case: str = typer.Argument(..., metavar="CASE", help="poiseuille, couette or taylor-green."),
-    changes: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="Any setting; may be repeated."),
+    texts: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="Any setting; may be repeated."),
     viscosity: str | None = typer.Option(None, "--viscosity", "-v", help="A viscous term."),
     correction: str | None = typer.Option(None, help="A consistency correction."),
     reynolds: float | None = typer.Option(None, help="The Reynolds number, as the case defines it."),
@@ -32,6 +30,7 @@ def run(
 ) -> None:
     """Compute a flow from its start to its end, or to its failure."""
     from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.sweeps import flow_settings
 
     files = folder(out)
     chosen = FLOWS[case.replace("_", "-")]
@@ -39,7 +38,7 @@ def run(
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
         "until": until, "force": force or None,
     }  # fmt: skip
-    settings = _settings(chosen, _changes(changes) | {key: value for key, value in given.items() if value is not None})
+    settings = flow_settings(chosen, changes(texts) | {key: value for key, value in given.items() if value is not None})
     flow = FlowRun(chosen, settings)
     if not as_json:
         print_text(_start(flow))
@@ -56,28 +55,6 @@ def run(
     print_text(f"  End: {flow.end}.\n  {_speed(result['performance'])}")
     if files is not None:
         print_files(files)
-
-
-def _changes(texts: list[str]) -> dict[str, str]:
-    changes = {}
-    for text in texts:
-        key, equals, value = text.partition("=")
-        if not equals:
-            raise SphearError(f"--set takes KEY=VALUE, such as --set kernel=wendland_c2, not {text!r}")
-        changes[key.strip().replace("-", "_")] = value.strip()
-    return changes
-
-
-def _settings(case: Any, changes: dict[str, Any]) -> Any:
-    """The settings, checked: the first that is wrong in one sentence."""
-    from sphear.schemes.settings import FlowSettings
-
-    known = list(FlowSettings.model_fields)
-    for key in changes:
-        if key not in known:
-            raise unknown("setting", key, known)
-    with checked("the setting "):
-        return case.settings(**changes)
 
 
 def _start(run: FlowRun) -> str:

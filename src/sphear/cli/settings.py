@@ -1,21 +1,42 @@
-"""Settings that a user gives, checked: the first that is wrong in one sentence."""
+"""Settings as they are written on the command line: KEY=VALUE."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 
 from sphear.errors import SphearError
 
 
-@contextmanager
-def checked(what: str = "") -> Iterator[None]:
-    """Turn what Pydantic says of the first wrong setting into a SphearError, with `what` before the setting's name."""
-    from pydantic import ValidationError
+def key_and_value(option: str, text: str, example: str) -> tuple[str, str]:
+    """The two sides of KEY=VALUE; hyphens in the key are underscores.
 
-    try:
-        yield
-    except ValidationError as error:
-        first = error.errors()[0]
-        name = str(first["loc"][0]) if what else str(first["loc"][0]).replace("_", "-")
-        raise SphearError(f"{what}{name} {first['msg'].removeprefix('Input ')}, not {first['input']!r}") from None
+    Raises:
+        SphearError: there is no equals sign.
+    """
+    key, equals, value = text.partition("=")
+    if not equals:
+        form = "KEY=V1,V2,..." if "," in example else "KEY=VALUE"
+        raise SphearError(f"{option} takes {form}, such as {option} {example}, not {text!r}")
+    return key.strip().replace("-", "_"), value.strip()
+
+
+def changes(texts: Iterable[str]) -> dict[str, str]:
+    """The settings that `--set` changes; the last of a key counts."""
+    return dict(key_and_value("--set", text, "kernel=wendland_c2") for text in texts)
+
+
+def choices(texts: Iterable[str]) -> dict[str, list[str]]:
+    """The values that `--over` goes through.
+
+    Raises:
+        SphearError: a key without values, with an empty one, or given twice.
+    """
+    over: dict[str, list[str]] = {}
+    for text in texts:
+        key, values = key_and_value("--over", text, "resolution=10,20,40")
+        if key in over:
+            raise SphearError(f"--over {key} is given twice: write all its values into one, separated by commas")
+        over[key] = [value.strip() for value in values.split(",")]
+        if not all(over[key]):
+            raise SphearError(f"--over {key} needs values separated by commas, such as {key}=V1,V2, not {values!r}")
+    return over

@@ -2,7 +2,7 @@
 
 Numba keeps machine code beside a module and recompiles when that module is edited, but does not notice an edit in a
 module that it calls. Here whatever a sweep is made of stands in its own text (the traced formula) or in the stamp
-(the sources of this engine, and the versions below it), so stale machine code cannot be met.
+(the sources of all compiled functions that generated code calls, and the versions below them), so stale machine code cannot be met.
 """
 
 from __future__ import annotations
@@ -49,8 +49,10 @@ def _writable(wanted: Path) -> Path:
 def stamp() -> str:
     """A hash of what every generated module depends on besides its own text."""
     digest = hashlib.sha256(f"{numba.__version__} {llvmlite.__version__} {sys.version}".encode())
-    for name in ("flags.py", "lanes.py", "records.py", "selection.py"):
-        digest.update((Path(__file__).parent / name).read_bytes())
+    package = Path(__file__).parent.parent
+    for folder in ("engine", "neighbours", "boundaries", "schemes"):
+        for path in sorted((package / folder).glob("*.py")):
+            digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 

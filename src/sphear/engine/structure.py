@@ -31,8 +31,9 @@ def parameters(formula: Any) -> list[float]:
     for _, is_float, value in _attributes(formula):
         if is_float:
             values.append(float(value))
-        elif dataclasses.is_dataclass(value):
-            values += parameters(value)
+        else:
+            for part in value if isinstance(value, tuple) else (value,):
+                values += parameters(part) if dataclasses.is_dataclass(part) else []
     return values
 
 
@@ -42,6 +43,8 @@ def with_symbols(formula: Any, symbol: Callable[[], Any]) -> Any:
     for name, is_float, value in _attributes(formula):
         if is_float:
             value = symbol()
+        elif isinstance(value, tuple):
+            value = tuple(with_symbols(part, symbol) if dataclasses.is_dataclass(part) else part for part in value)
         elif dataclasses.is_dataclass(value):
             value = with_symbols(value, symbol)
         object.__setattr__(copy, name, value)

@@ -1,21 +1,45 @@
-"""What is summed over pairs of particles."""
+"""Interactions: what is summed over the neighbours of each particle."""
 
+from sphear.interactions.continuity import Continuity, DensityDiffusion
 from sphear.interactions.density import SummationDensity
 from sphear.interactions.gradient import Divergence, Gradient
+from sphear.interactions.internal_energy import InternalEnergy
 from sphear.interactions.interpolation import Interpolation, NumberDensity
 from sphear.interactions.laplacian import Laplacian
 from sphear.interactions.momentum import Momentum
-from sphear.interactions.reduced_momentum import ReducedMomentum
-from sphear.interactions.viscous_acceleration import ViscousAcceleration
+from sphear.interactions.pressure_force import PressureForce
+from sphear.interactions.rates import Part, Rates
+from sphear.interactions.transport import (
+    Advection,
+    DensityAdvection,
+    Shifting,
+    TransportStress,
+    TransportVelocity,
+)
+from sphear.interactions.viscous_acceleration import ViscousAcceleration, ViscousForce
+from sphear.interactions.wall_particles import FluidBeforeWall, VelocityBeforeWall
 
 __all__ = [
+    "Advection",
+    "Continuity",
+    "DensityAdvection",
+    "DensityDiffusion",
     "Divergence",
+    "FluidBeforeWall",
     "Gradient",
+    "InternalEnergy",
     "Interpolation",
     "Laplacian",
     "Momentum",
     "NumberDensity",
-    "ReducedMomentum",
+    "Part",
+    "PressureForce",
+    "Rates",
+    "Shifting",
     "SummationDensity",
+    "TransportStress",
+    "TransportVelocity",
+    "VelocityBeforeWall",
     "ViscousAcceleration",
+    "ViscousForce",
 ]

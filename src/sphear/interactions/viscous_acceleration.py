@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from sphear.algebra import Scalar, Vector, add
 from sphear.corrections import Correction
+from sphear.interactions.rates import Part
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
@@ -29,3 +30,22 @@ class ViscousAcceleration:
         """The sum, with what the particle adds itself."""
         itself = self.term.own_acceleration(self.kernel, self.correction, own)
         return total if itself is None else add(total, itself)
+
+
+@dataclass(frozen=True)
+class ViscousForce(Part):
+    """`ViscousAcceleration` as a part of the momentum equation."""
+
+    term: ViscousTerm
+    kernel: Kernel
+    correction: Correction
+
+    role = "velocity"
+
+    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
+        """The term's acceleration of `own` by `other`."""
+        return self.term.acceleration(self.kernel, self.correction, own, other, d, r2), ()
+
+    def finish(self, own: Any, sums: Any) -> Vector | None:
+        """What the particle adds itself."""
+        return self.term.own_acceleration(self.kernel, self.correction, own)

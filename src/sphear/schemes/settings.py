@@ -1,10 +1,12 @@
-"""What can be chosen of a weakly compressible flow."""
+"""What can be chosen of an explicit flow, weakly compressible or compressible."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from sphear.errors import SphearError
 
 
 class FlowSettings(BaseModel):
@@ -12,21 +14,41 @@ class FlowSettings(BaseModel):
 
     Attributes:
         viscosity: name of a viscous term.
-        correction: name of a consistency correction of the kernel in the pressure and viscous sums. The density sum
-            stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b) W_ab is the mean of
-            the neighbours' densities, and would not know how far apart particles are.
+        correction: name of a consistency correction of the kernel in the pressure, viscous and continuity sums. The
+            density sum stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b) W_ab is
+            the mean of the neighbours' densities, and would not know how far apart particles are. A term with a
+            correction of its own keeps it.
         kernel: name of a kernel.
         h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
-        equation_of_state: "batchelor_tait" or "linear".
-        pressure_reduction: "mean" subtracts the mean pressure of the neighbours (eq. 20), "none" does not (eq. 8).
-        wall_velocity: how mirror particles move along a wall.
+        equation_of_state: "batchelor_tait", "linear" or "ideal_gas".
+        density: by "summation" (eq. 11) or by the "continuity" equation (eq. 10).
+        momentum: "squares" (eq. 8, of the summation), "products" (eq. 9, of the continuity equation) or None for the
+            one that belongs to the density.
+        pressure_reduction: "mean" subtracts the mean pressure of the neighbours (eq. 20), "hydrostatic" the pressure
+            at rest (Morris et al. 1997), "none" nothing.
+        density_diffusion: delta of Molteni & Colagrossi (2009), 0.1 there; 0 leaves it out.
+        walls: "mirror" particles, "fixed" ones with the fluid's velocity continued into them (section 6.2), or "adami".
+        wall_velocity: how the velocity is continued into mirror or fixed particles.
+        wall_particles: particles with the wall's velocity on mirroring walls, one for each particle within a spacing.
+        integrator: "midpoint", second-order Runge-Kutta, or "kick_drift_kick", with one evaluation a step.
+        transport: "none", "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al. 2013).
+        shifting_strength: factor of the shifting.
+        background_pressure: of the transport velocity, over density times squared sound speed.
+        initial: "lattice", "staggered" (every other row by half a spacing) or "relaxed" (disordered, then settled).
+        seed: of the disorder.
         reynolds: as the case defines it.
         resolution: particles across the flow.
         until: when to stop, in the time unit of the case; None where the case says.
         max_steps: stop after so many steps.
-        sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %.
+        sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %; of an ideal gas
+            it follows from `initial_pressure`.
+        initial_pressure: of an ideal gas, 125 kPa in the paper.
         time_step: None takes the least of the CFL, viscous and body-force limits.
         force: take a time step beyond its limit all the same.
+        threads: that a run computes on; None takes all processors for large flows, one for small.
+
+    Raises:
+        SphearError: two settings contradict each other.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
@@ -35,13 +57,55 @@ class FlowSettings(BaseModel):
     correction: str = "none"
     kernel: str = "cubic_spline"
     h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    equation_of_state: Literal["batchelor_tait", "linear"] = "batchelor_tait"
-    pressure_reduction: Literal["mean", "none"] = "mean"
+    equation_of_state: Literal["batchelor_tait", "linear", "ideal_gas"] = "batchelor_tait"
+    density: Literal["summation", "continuity"] = "summation"
+    momentum: Literal["squares", "products"] | None = None
+    pressure_reduction: Literal["mean", "hydrostatic", "none"] = "mean"
+    density_diffusion: float = Field(default=0.0, ge=0, allow_inf_nan=False)
+    walls: Literal["mirror", "fixed", "adami"] = "mirror"
     wall_velocity: str = "linear"
+    wall_particles: bool = False
+    integrator: Literal["midpoint", "kick_drift_kick"] = "midpoint"
+    transport: Literal["none", "shifting", "transport_velocity"] = "none"
+    shifting_strength: float = Field(default=1.0, gt=0, allow_inf_nan=False)
+    background_pressure: float = Field(default=1.0, gt=0, allow_inf_nan=False)
+    initial: Literal["lattice", "staggered", "relaxed"] = "lattice"
+    seed: int = Field(default=0, ge=0)
     reynolds: float = Field(default=0.5, gt=0, allow_inf_nan=False)
     resolution: int = Field(default=20, ge=1)
     until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     max_steps: int = Field(default=500_000, ge=1)
     sound_speed: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    initial_pressure: float = Field(default=125e3, gt=0, allow_inf_nan=False)
     time_step: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     force: bool = False
+    threads: int | None = Field(default=None, ge=1)
+
+    @property
+    def form(self) -> Literal["squares", "products"]:
+        """The form of the momentum equation that belongs to the density."""
+        return "squares" if self.density == "summation" else "products"
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        gas = self.equation_of_state == "ideal_gas"
+        contradictions = {
+            f"density={self.density} and momentum={self.momentum} are not a variational pair (Bonet & Lok 1999), and"
+            f" would not conserve energy: {self.density} goes with {self.form}": self.momentum not in (None, self.form),
+            "density_diffusion smooths the continuity equation and density=summation has none: take density=continuity"
+            " or no diffusion": self.density_diffusion > 0 and self.density == "summation",
+            "transport=transport_velocity is made for density=summation, not for density=continuity": (
+                self.transport == "transport_velocity" and self.density == "continuity"
+            ),
+            f"transport={self.transport} moves particles without their energy, which equation_of_state=ideal_gas"
+            " needs: take transport=none or another equation of state": gas and self.transport != "none",
+            "sound_speed follows from initial_pressure where equation_of_state=ideal_gas: give that instead": (
+                gas and self.sound_speed is not None
+            ),
+            f"wall_particles stand on mirroring walls and walls={self.walls} has none: take walls=mirror or no"
+            " wall_particles": self.wall_particles and self.walls != "mirror",
+        }
+        for sentence, contradictory in contradictions.items():
+            if contradictory:
+                raise SphearError(sentence)
+        return self

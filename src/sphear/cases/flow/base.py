@@ -13,7 +13,8 @@ from sphear.boundaries import WALL_VELOCITIES
 from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.weakly_compressible import FlowFailure, Problem, WeaklyCompressible
+from sphear.schemes.flow import Flow, FlowFailure
+from sphear.schemes.problem import Problem
 from sphear.viscosity import VISCOSITY
 
 Array = np.ndarray[Any, Any]
@@ -42,8 +43,8 @@ class FlowCase:
     exact: Callable[[FlowSettings, Array, float], Array]
     time_unit: Callable[[FlowSettings], float]
     time_name: str
-    metrics: Callable[[FlowSettings, WeaklyCompressible], dict[str, float]]
-    ended: Callable[[FlowSettings, WeaklyCompressible, dict[str, float]], str | None]
+    metrics: Callable[[FlowSettings, Flow], dict[str, float]]
+    ended: Callable[[FlowSettings, Flow, dict[str, float]], str | None]
 
     def settings(self, **changes: Any) -> FlowSettings:
         """The settings of this case with some changed."""
@@ -68,7 +69,7 @@ class FlowRun:
     seconds: float = 0.0
 
     def __post_init__(self) -> None:
-        self.flow = WeaklyCompressible(self.case.problem(self.settings), self.settings)
+        self.flow = Flow(self.case.problem(self.settings), self.settings)
         self.unit = self.case.time_unit(self.settings)
 
     def run(self, progress: Callable[[str], None] = lambda text: None) -> FlowRun:

@@ -11,7 +11,8 @@ from sphear.cases.flow.base import FlowCase
 from sphear.cases.flow.lattice import staggered_from_walls
 from sphear.references.couette import PlaneCouette
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.weakly_compressible import Problem, WeaklyCompressible
+from sphear.schemes.flow import Flow
+from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
@@ -47,7 +48,7 @@ def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
     return np.stack((along, np.zeros_like(along)), axis=1)
 
 
-def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float]:
+def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """The RMS error relative to the wall's velocity, and the kinetic energy over that of the steady flow."""
     along = exact(settings, flow.positions, flow.time)[:, 0]
     speed = reference(settings).wall_velocity
@@ -58,7 +59,7 @@ def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float
     }
 
 
-def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, float]) -> str | None:
+def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | None:
     """Steady when the slowest mode, exp(-pi^2 nu t / L^2), is below 1e-12."""
     decayed = np.exp(-(np.pi**2) * KINEMATIC_VISCOSITY * flow.time / GAP**2) < STEADY
     return "steady" if decayed else None

@@ -11,7 +11,8 @@ from sphear.cases.flow.base import FlowCase
 from sphear.cases.flow.lattice import staggered_from_walls
 from sphear.references.poiseuille import PlanePoiseuille, rms_error
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.weakly_compressible import Problem, WeaklyCompressible
+from sphear.schemes.flow import Flow
+from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
@@ -51,7 +52,7 @@ def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
     return np.stack((along, np.zeros_like(along)), axis=1)
 
 
-def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float]:
+def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """RMS error (38) and kinetic energy over that of the steady flow."""
     along = exact(settings, flow.positions, flow.time)[:, 0]
     steady = reference(settings).steady(flow.positions[:, 1])
@@ -61,7 +62,7 @@ def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float
     }
 
 
-def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, float]) -> str | None:
+def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | None:
     """The paper's rules: steady when the exact U(0, t)/U0 > 1 - 1e-12, failed when the RMS error reaches 12 %."""
     resolved = np.sqrt(KINEMATIC_VISCOSITY * flow.time) > RESOLVED * flow.problem.spacing
     if resolved and not found["rms_error"] < FAILED:

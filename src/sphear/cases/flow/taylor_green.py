@@ -11,7 +11,8 @@ from sphear.cases.flow.base import FlowCase
 from sphear.cases.flow.lattice import staggered_from_walls
 from sphear.references.taylor_green import TaylorGreen
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.weakly_compressible import Problem, WeaklyCompressible
+from sphear.schemes.flow import Flow
+from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
@@ -44,7 +45,7 @@ def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
     return np.asarray(reference(settings).velocity(positions, time))
 
 
-def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float]:
+def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """L2 error over the exact velocity, kinetic energy, and it over the exact one."""
     velocity = exact(settings, flow.positions, flow.time)
     energy = float(0.5 * (flow.velocities**2).sum() * flow.problem.spacing**2 * DENSITY)
@@ -55,7 +56,7 @@ def metrics(settings: FlowSettings, flow: WeaklyCompressible) -> dict[str, float
     }
 
 
-def ended(settings: FlowSettings, flow: WeaklyCompressible, found: dict[str, float]) -> str | None:
+def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | None:
     """Never before its time."""
     return None
 

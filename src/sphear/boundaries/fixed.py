@@ -1,0 +1,75 @@
+"""Walls of fixed particles: layers of them on the lattice of the fluid, beyond each wall of a box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries.box import Box
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class WallParticles:
+    """Particles that stand still behind the walls.
+
+    Attributes:
+        positions: (M, d).
+        velocities: (M, d), of the wall that each stands behind; in a corner of the slower one.
+        normals: (M, d), of that wall, into the fluid; zero in corners, where no line across the wall meets the fluid.
+        depths: (M,), behind the wall.
+        nearest: (M,), the particle of the first layer before each one; itself in corners.
+    """
+
+    positions: Array
+    velocities: Array
+    normals: Array
+    depths: Array
+    nearest: Array
+
+
+def wall_particles(box: Box, spacing: float, layers: int) -> WallParticles:
+    """The particles behind the walls of a box.
+
+    Args:
+        box: with walls.
+        spacing: of the particles; a whole number of them fits between the walls.
+        layers: of particles behind each wall.
+    """
+    dimension = len(box.lower)
+    _, _, _, wall_velocities = box.arrays()
+    cells = [max(1, round((high - low) / spacing)) for low, high in zip(box.lower, box.upper, strict=True)]
+    ranges = [
+        range(-layers, n + layers) if axis in box.wall_axes else range(n) for axis, n in enumerate(cells)
+    ]
+    number: dict[tuple[int, ...], int] = {}
+    rows: list[tuple[list[float], Array, Array, float]] = []
+    firsts: list[tuple[int, ...]] = []
+    for index in product(*ranges):
+        behind = [axis for axis, k in enumerate(index) if not 0 <= k < cells[axis]]
+        if not behind:
+            continue
+        number[index] = len(rows)
+        sides = [(axis, int(index[axis] >= cells[axis])) for axis in behind]
+        speeds = [wall_velocities[axis, side] for axis, side in sides]
+        normal, depth, first = np.zeros(dimension), 0.0, list(index)
+        if len(sides) == 1:
+            (axis, side), = sides
+            normal[axis] = -1.0 if side else 1.0
+            layer = index[axis] - cells[axis] if side else -1 - index[axis]
+            depth = (layer + 0.5) * spacing
+            first[axis] = cells[axis] if side else -1
+        place = [low + (k + 0.5) * spacing for low, k in zip(box.lower, index, strict=True)]
+        rows.append((place, min(speeds, key=lambda u: float(np.dot(u, u))), normal, depth))
+        firsts.append(tuple(first))
+    return WallParticles(
+        positions=np.array([row[0] for row in rows]).reshape(-1, dimension),
+        velocities=np.array([row[1] for row in rows]).reshape(-1, dimension),
+        normals=np.array([row[2] for row in rows]).reshape(-1, dimension),
+        depths=np.array([row[3] for row in rows]),
+        nearest=np.array([number[first] for first in firsts], np.int64),
+    )

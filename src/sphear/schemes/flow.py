@@ -1,0 +1,269 @@
+"""An explicit flow in time: weakly compressible or, with an ideal gas, compressible."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numba
+import numpy as np
+
+from sphear.boundaries import WALL_VELOCITIES, wall_particles
+from sphear.engine.memory import keep_freed_memory
+from sphear.engine.threads import thread_count
+from sphear.equations_of_state import IdealGas
+from sphear.errors import SphearError
+from sphear.neighbours.pair_list import selection_table_once
+from sphear.operators import arguments
+from sphear.schemes.formulas import Formulas, formulas
+from sphear.schemes.integrators import CAUSES
+from sphear.schemes.loop import loop_module
+from sphear.schemes.problem import Problem, morris_sound_speed
+from sphear.schemes.settings import FlowSettings
+from sphear.schemes.state import Change, Fields, Numbers, Space
+
+Array = np.ndarray[Any, Any]
+
+
+LARGE = 5000  # particles, from which on the arrays of a step are large to the C library
+
+
+class FlowFailure(SphearError):
+    """A run that broke down: when, where and why."""
+
+
+class Flow:
+    """A flow in time.
+
+    Args:
+        problem: what is to be computed.
+        settings: how.
+
+    Attributes:
+        time: reached.
+        steps: made.
+        positions, velocities: (N, d), of the fluid now.
+        density, pressure, energy: (N,); of the last evaluation, which of the midpoint rule is at the middle of a step
+            where they are not integrated.
+        drift: (N, d), of the particles against the fluid.
+        limits: the time steps that the CFL, viscous and body-force conditions allow.
+
+    Raises:
+        SphearError: the settings do not fit the problem or each other.
+    """
+
+    def __init__(self, problem: Problem, settings: FlowSettings) -> None:
+        self.problem, self.settings = problem, settings
+        self.time, self.steps = 0.0, 0
+        _check_start(problem)
+        self.term = arguments.read_viscosity(settings.viscosity)
+        self.correction = arguments.read_correction(settings.correction, None)
+        self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
+        self.count = len(problem.positions)
+        gas = settings.equation_of_state == "ideal_gas"
+        self.sound_speed = (
+            float(IdealGas().sound_speed(problem.density, self._energy_at_rest()))
+            if gas
+            else settings.sound_speed or morris_sound_speed(problem)
+        )
+        self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed)
+        self.time_step = self._time_step()
+        chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
+        self._check_room(len(chosen.stages))
+        self._set_up(chosen)
+        self.threads = min(thread_count(settings.threads, self.count), numba.config.NUMBA_NUM_THREADS)
+        self._loop = loop_module(
+            problem.positions.shape[1],
+            chosen,
+            integrator=settings.integrator,
+            walls=bool(problem.box.wall_axes),
+            mirrored=settings.walls == "mirror",
+            wall_velocity=WALL_VELOCITIES.name(settings.wall_velocity),
+            wall_particles=settings.wall_particles,
+            parallel=self.threads > 1,
+        )
+
+    def _energy_at_rest(self) -> float:
+        return float(IdealGas().energy(self.problem.density, self.settings.initial_pressure))
+
+    def _set_up(self, chosen: Formulas) -> None:
+        """The arrays of the time loop: of the fluid, and behind it of the fixed particles of walls."""
+        problem, settings = self.problem, self.settings
+        count, dimension = problem.positions.shape
+        layers = math.ceil(self._depth(len(chosen.stages)) / problem.spacing)
+        fixed = settings.walls != "mirror" and bool(problem.box.wall_axes)
+        behind = wall_particles(problem.box, problem.spacing, layers if fixed else 0)
+        total = count + len(behind.positions)
+        self._x = np.ascontiguousarray(np.concatenate((problem.positions, behind.positions)), np.float64)
+        self._v = np.ascontiguousarray(np.concatenate((problem.velocities, behind.velocities)), np.float64)
+
+        def of_walls(values: Array) -> Array:
+            before = np.zeros((count, *values.shape[1:]))
+            return np.concatenate((before, values)) if fixed else np.zeros((1, *values.shape[1:]))
+
+        moves, gas = "drift" in chosen.rates.roles, settings.equation_of_state == "ideal_gas"
+        self._fields = Fields(
+            mass=np.full(total, problem.density * problem.spacing**dimension),
+            viscosity=np.full(total, problem.density * problem.kinematic_viscosity),
+            density=np.full(total, problem.density),
+            pressure=np.full(total, settings.initial_pressure if gas else 0.0),
+            energy=np.full(total if gas else 1, self._energy_at_rest()),
+            drift=np.zeros((total if moves else 1, dimension)),
+            normal=of_walls(behind.normals),
+            depth=of_walls(behind.depths),
+            wall_velocity=of_walls(behind.velocities),
+            nearest=count + behind.nearest,
+        )
+        self._change = Change(
+            velocity=np.zeros((count, dimension)),
+            density=np.zeros(total if "density" in chosen.rates.roles else 1),
+            energy=np.zeros(total if "energy" in chosen.rates.roles else 1),
+        )
+        self._space = Space(*problem.box.arrays(settings.walls == "mirror"))
+        index, right = np.zeros((0, 0), np.int64), np.zeros(0)
+        for _, preparation in chosen.preparations:
+            if hasattr(preparation, "normal_equations"):
+                index, right = preparation.normal_equations(dimension)
+        self._numbers = Numbers(
+            force=np.array(problem.body_force, np.float64),
+            spacing=float(problem.spacing),
+            support=float(self.kernel.radius),
+            state=np.array(_numbers(chosen.equation_of_state)),
+            wall_state=np.array(_numbers(chosen.wall_state)),
+            table=selection_table_once(),
+            index=index,
+            right=right,
+        )
+        self._constants = tuple(np.array(numbers or [0.0]) for numbers in chosen.parameters())
+        self._fresh = False
+
+    def _depth(self, stages: int) -> float:
+        """How thick walls of fixed particles must be: densities that are summed need all their neighbours too."""
+        return self.kernel.radius * (stages + (self.settings.density == "summation"))
+
+    @property
+    def positions(self) -> Array:
+        """(N, d)."""
+        return self._x[: self.count]
+
+    @property
+    def velocities(self) -> Array:
+        """(N, d)."""
+        return self._v[: self.count]
+
+    @property
+    def density(self) -> Array:
+        """(N,)."""
+        return self._fields.density[: self.count]
+
+    @property
+    def pressure(self) -> Array:
+        """(N,)."""
+        return self._fields.pressure[: self.count]
+
+    @property
+    def energy(self) -> Array:
+        """(N,) of an ideal gas, else of one number that means nothing."""
+        return self._fields.energy[: self.count]
+
+    @property
+    def drift(self) -> Array:
+        """(N, d) where particles are moved against the fluid, else (1, d) of zeros."""
+        return self._fields.drift[: self.count]
+
+    @property
+    def acceleration(self) -> Array:
+        """(N, d), of the last evaluation."""
+        return self._change.velocity
+
+    def _check_room(self, stages: int) -> None:
+        problem, settings = self.problem, self.settings
+        if self.kernel.radius <= problem.spacing:
+            raise SphearError(
+                f"the setting h_over_dx must be more than {self.kernel.h / self.kernel.radius:.4g} for"
+                f" {self.kernel.name}, or no particle has a neighbour, not {self.kernel.h / problem.spacing:.4g}"
+            )
+        supports = "the kernel's support" if stages == 1 else f"{stages} supports of the kernel"
+        for axis in problem.box.wall_axes:
+            width = problem.box.upper[axis] - problem.box.lower[axis]
+            if stages * self.kernel.radius > width:
+                raise SphearError(
+                    f"the resolution of {settings.resolution} is too coarse for walls={settings.walls}: {supports} of"
+                    f" {stages * self.kernel.radius:g} reach beyond the width of {width:g} between the walls"
+                )
+
+    def _time_step(self) -> float:
+        name = min(self.limits, key=self.limits.__getitem__)
+        limit, wanted = self.limits[name], self.settings.time_step
+        if wanted is not None and wanted > limit and not self.settings.force:
+            raise SphearError(
+                f"the time step of {wanted:g} is beyond the {name.replace('_', '-')} limit of {limit:g}: take a smaller"
+                f" one, or --force"
+            )
+        return wanted or limit
+
+    def advance(self, steps: int) -> None:
+        """Make steps.
+
+        Raises:
+            FlowFailure: the flow broke down; the state is that of the moment.
+        """
+        if self.threads > 1:
+            numba.set_num_threads(self.threads)
+        if self.count > LARGE:
+            keep_freed_memory()
+        fastest = math.inf if self.settings.equation_of_state == "ideal_gas" else self.sound_speed
+        made, status, worst = self._loop.advance(
+            self._x, self._v, self._fields, self._change, self.time_step, steps, self._fresh, fastest, self.count,
+            self.threads, self._space, self._numbers, self._constants,
+        )  # fmt: skip
+        self._fresh = status == 0 and (self._fresh or steps > 0 or self.settings.integrator == "kick_drift_kick")
+        self.steps += made
+        self.time += made * self.time_step
+        if status:
+            place = ", ".join(f"{x:.6g}" for x in self._x[worst])
+            raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
+
+    def state(self) -> dict[str, Array]:
+        """All that a run needs to go on, by name."""
+        return {
+            "clock": np.array([self.time, self.steps]),
+            "x": self._x,
+            "v": self._v,
+            "density": self._fields.density,
+            "pressure": self._fields.pressure,
+            "energy": self._fields.energy,
+            "drift": self._fields.drift,
+            "fresh": np.array(self._fresh),
+            "velocity_rate": self._change.velocity,
+            "density_rate": self._change.density,
+            "energy_rate": self._change.energy,
+        }
+
+    def restore(self, state: dict[str, Array]) -> None:
+        """Go back to a `state` of the same problem and settings.
+
+        Raises:
+            SphearError: it is that of another flow.
+        """
+        own = self.state()
+        for name, values in own.items():
+            if name not in state or np.shape(state[name]) != values.shape:
+                raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
+        for name, values in own.items():
+            if name not in ("clock", "fresh"):
+                values[...] = state[name]
+        self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
+
+
+def _numbers(equation: Any) -> list[float]:
+    from sphear.engine.structure import parameters
+
+    return parameters(equation)
+
+
+def _check_start(problem: Problem) -> None:
+    for what, values in (("position", problem.positions), ("velocity", problem.velocities)):
+        wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
+        if len(wrong):
+            raise SphearError(f"the initial {what} of particle {wrong[0]} is not a number: {values[wrong[0]]}")

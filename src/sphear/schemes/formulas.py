@@ -1,0 +1,162 @@
+"""Which formulas make up a step, from the settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sphear.corrections import CORRECTIONS, Correction
+from sphear.engine.formula import Interaction
+from sphear.engine.structure import parameters
+from sphear.equations_of_state import BatchelorTait, EquationOfState, IdealGas, Linear
+from sphear.errors import SphearError
+from sphear.interactions import (
+    Advection,
+    Continuity,
+    DensityAdvection,
+    DensityDiffusion,
+    FluidBeforeWall,
+    InternalEnergy,
+    Part,
+    PressureForce,
+    Rates,
+    Shifting,
+    SummationDensity,
+    TransportStress,
+    TransportVelocity,
+    VelocityBeforeWall,
+    ViscousForce,
+)
+from sphear.kernels import Kernel
+from sphear.schemes.problem import Problem
+from sphear.schemes.settings import FlowSettings
+from sphear.viscosity.base import ViscousTerm
+
+FIT_DEGREES = {"linear": 1, "quadratic": 2}
+
+
+@dataclass(frozen=True)
+class Formulas:
+    """The interactions of a step, in the order in which they are swept.
+
+    Attributes:
+        density: gives the density; None where it is integrated.
+        equation_of_state: gives the pressure.
+        wall_state: gives fixed wall particles the density that belongs to their pressure.
+        wall: what wall particles take from the fluid before them; None without fixed walls.
+        preparations: what the stages know of a particle's neighbourhood, by the name that they know it by.
+        stages: each knows the one before as `before`; the last gives the rates.
+        rates: the last of the stages.
+    """
+
+    density: Interaction | None
+    equation_of_state: EquationOfState
+    wall_state: EquationOfState
+    wall: VelocityBeforeWall | FluidBeforeWall | None
+    preparations: tuple[tuple[str, Any], ...]
+    stages: tuple[Interaction, ...]
+    rates: Rates
+
+    def parameters(self) -> tuple[list[float], ...]:
+        """The numbers of each sweep, in the order of their calls."""
+        before = [self.density, self.wall, *(preparation for _, preparation in self.preparations)]
+        return tuple(parameters(x) for x in (*before, *self.stages) if x is not None)
+
+
+def formulas(
+    settings: FlowSettings,
+    problem: Problem,
+    term: ViscousTerm,
+    kernel: Kernel,
+    sound_speed: float,
+    time_step: float,
+) -> Formulas:
+    """The formulas of a flow.
+
+    Args:
+        settings: what is chosen.
+        problem: the flow.
+        term: its viscous term.
+        kernel: with its smoothing length.
+        sound_speed: at rest.
+        time_step: which the transport velocity depends on.
+    """
+    correction = CORRECTIONS[settings.correction]
+    of_term = CORRECTIONS["none"] if term.own_correction else correction
+    preparations = [("prepared", term.preparation(kernel, of_term))]
+    prepared = "prepared"
+    if term.own_correction:  # the pressure gradient's correction then needs sums of its own
+        prepared = "prepared_gradient"
+        preparations.append((prepared, correction.preparation(kernel)))
+    *before, _ = term.acceleration_stages(kernel, of_term)
+    viscous = ViscousForce(term, kernel, of_term)
+    rates = Rates((viscous, *_parts(settings, problem, kernel, correction, prepared, sound_speed, time_step)))
+    return Formulas(
+        density=SummationDensity(kernel) if settings.density == "summation" else None,
+        equation_of_state=_equation(settings, problem, sound_speed),
+        wall_state=IdealGas() if settings.equation_of_state == "ideal_gas" else Linear(problem.density, sound_speed),
+        wall=_wall(settings, problem, kernel),
+        preparations=tuple((name, found) for name, found in preparations if found is not None),
+        stages=(*before, rates),
+        rates=rates,
+    )
+
+
+def _equation(settings: FlowSettings, problem: Problem, sound_speed: float) -> EquationOfState:
+    if settings.equation_of_state == "ideal_gas":
+        return IdealGas()
+    equation = BatchelorTait if settings.equation_of_state == "batchelor_tait" else Linear
+    return equation(problem.density, sound_speed)
+
+
+def _parts(
+    settings: FlowSettings,
+    problem: Problem,
+    kernel: Kernel,
+    correction: Correction,
+    prepared: str,
+    sound_speed: float,
+    time_step: float,
+) -> list[Part]:
+    """Everything but the viscous force."""
+    gas = settings.equation_of_state == "ideal_gas"
+    continuity = settings.density == "continuity"
+    at_rest = settings.initial_pressure if gas else 0.0
+    parts: list[Part] = [
+        PressureForce(
+            kernel,
+            correction,
+            settings.form,
+            settings.pressure_reduction == "mean",
+            at_rest if settings.pressure_reduction == "hydrostatic" else None,
+            prepared,
+        )
+    ]
+    if continuity:
+        parts.append(Continuity(kernel, correction, prepared))
+    if settings.density_diffusion > 0:
+        parts.append(DensityDiffusion(kernel, settings.density_diffusion, sound_speed))
+    if gas:
+        parts.append(InternalEnergy(kernel, correction, settings.form, prepared))
+    if settings.transport == "shifting":
+        shifting = Shifting(kernel, settings.shifting_strength, problem.speed, problem.spacing)
+        parts += [shifting, Advection(shifting, kernel, correction, prepared)]
+        if continuity:
+            parts.append(DensityAdvection(shifting, kernel, correction, prepared))
+    elif settings.transport == "transport_velocity":
+        background = settings.background_pressure * problem.density * sound_speed**2
+        parts += [TransportVelocity(kernel, 0.5 * time_step * background), TransportStress(kernel)]
+    return parts
+
+
+def _wall(settings: FlowSettings, problem: Problem, kernel: Kernel) -> VelocityBeforeWall | FluidBeforeWall | None:
+    if settings.walls == "mirror" or not problem.box.wall_axes:
+        return None
+    if settings.walls == "adami":
+        return FluidBeforeWall(kernel)
+    if settings.wall_velocity not in FIT_DEGREES:
+        raise SphearError(
+            f"walls=fixed continue the fluid's velocity by wall_velocity=linear or quadratic, not"
+            f" {settings.wall_velocity}"
+        )
+    return VelocityBeforeWall(kernel, FIT_DEGREES[settings.wall_velocity])

@@ -1,0 +1,64 @@
+"""A flow to be computed: fluid, box, forces and scales."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries import Box
+
+Array = np.ndarray[Any, Any]
+
+DENSITY_VARIATION = 0.01
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A flow to be computed.
+
+    Attributes:
+        positions: (N, d), at the start, of particles that fill the box `spacing` apart.
+        velocities: (N, d), at the start.
+        box: its sides.
+        body_force: on a unit of mass, (d,).
+        spacing: of the particles.
+        density: at rest.
+        kinematic_viscosity: of the fluid.
+        speed: the largest speed that is expected.
+        length: the length that the Reynolds number is made with.
+    """
+
+    positions: Array
+    velocities: Array
+    box: Box
+    body_force: tuple[float, ...]
+    spacing: float
+    density: float
+    kinematic_viscosity: float
+    speed: float
+    length: float
+
+    def time_step_limits(self, h: float, sound_speed: float) -> dict[str, float]:
+        """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997, section 2.6)."""
+        force = math.hypot(*self.body_force)
+        return {
+            "cfl": 0.25 * h / (sound_speed + self.speed),
+            "viscous": 0.125 * h**2 / self.kinematic_viscosity,
+            "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
+        }
+
+
+def morris_sound_speed(problem: Problem) -> float:
+    """c0^2 = max(U0^2, nu U0 / L, F L) / delta with delta = 0.01 (Morris, Fox & Zhu 1997, eq. 21)."""
+    force = math.hypot(*problem.body_force)
+    return math.sqrt(
+        max(
+            problem.speed**2,
+            problem.kinematic_viscosity * problem.speed / problem.length,
+            force * problem.length,
+        )
+        / DENSITY_VARIATION
+    )

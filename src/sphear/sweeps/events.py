@@ -1,0 +1,40 @@
+"""What those who compute runs tell of them, as it happens."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sphear.sweeps.plan import Run
+
+
+@dataclass(frozen=True)
+class Started:
+    """A run is with a worker."""
+
+    run: Run
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A run has come to its end."""
+
+    run: Run
+    record: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Lost:
+    """A run will not come to its end."""
+
+    run: Run
+    reason: str
+
+
+Event = Started | Finished | Lost
+
+
+def unexpected(run: Run, error: BaseException) -> Lost:
+    """A run that ended with an exception."""
+    return Lost(run, f"{type(error).__name__}: {' '.join(str(error).split())}".removesuffix(": "))
