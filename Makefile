@@ -33,7 +33,7 @@ clean:
 	rm -rf .venv demo build src/*.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
 
 .venv/for-use: requirement := sphear
-.venv/for-test: requirement := sphear[test,cuda]
+.venv/for-test: requirement := sphear[test,cluster,cuda]
 .venv/for-development: requirement := sphear[dev]
 
 # A folder has no hash that pip could check, so sphear goes in alone; pip then takes what it requires from the lock.

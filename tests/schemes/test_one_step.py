@@ -11,7 +11,8 @@ import pytest
 
 from sphear.boundaries import Box
 from sphear.cases.flow import FLOWS
-from sphear.schemes.weakly_compressible import Problem, WeaklyCompressible
+from sphear.schemes.flow import Flow
+from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
@@ -189,7 +190,7 @@ def test_one_step(viscosity: str, correction: str, wall: str, reduction: str, st
         equation_of_state=state, resolution=COUNT,
     )  # fmt: skip
     problem = channel()
-    flow = WeaklyCompressible(problem, settings)
+    flow = Flow(problem, settings)
     plain = Plain(
         viscosity, correction, wall, reduction == "mean", state == "batchelor_tait", flow.kernel.h, flow.sound_speed,
         problem.spacing,

@@ -14,7 +14,8 @@ from sphear import SphearError
 from sphear.boundaries import Box
 from sphear.cases.flow import FLOWS
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.weakly_compressible import FlowFailure, Problem, WeaklyCompressible, morris_sound_speed
+from sphear.schemes.flow import Flow, FlowFailure
+from sphear.schemes.problem import Problem, morris_sound_speed
 
 Array = np.ndarray[Any, Any]
 
@@ -62,44 +63,44 @@ def test_sound_speed_is_that_of_the_largest_of_three(
 
 
 def test_sound_speed_can_be_given() -> None:
-    assert WeaklyCompressible(*channel(sound_speed=123.0)).sound_speed == 123.0
+    assert Flow(*channel(sound_speed=123.0)).sound_speed == 123.0
 
 
 def test_the_time_step_is_the_least_of_its_limits() -> None:
     problem, settings = channel(reynolds=0.5)
-    flow = WeaklyCompressible(problem, settings)
+    flow = Flow(problem, settings)
     h = 0.1 / 0.637
     assert flow.kernel.h == pytest.approx(h)
     assert flow.limits["cfl"] == pytest.approx(0.25 * h / (flow.sound_speed + 1.0))  # U0 = Re nu / d = 1
     assert flow.limits["viscous"] == pytest.approx(0.125 * h**2 / 1.0)
     assert flow.limits["body_force"] == pytest.approx(0.25 * (h / 8.0) ** 0.5)  # f = 2 nu^2 Re / d^3
     assert flow.time_step == min(flow.limits.values()) == flow.limits["cfl"]
-    assert WeaklyCompressible(box(), conserving()).limits["body_force"] == np.inf
+    assert Flow(box(), conserving()).limits["body_force"] == np.inf
 
 
 def test_a_time_step_beyond_its_limit_is_refused_unless_forced() -> None:
-    limit = WeaklyCompressible(*channel()).time_step
-    assert WeaklyCompressible(*channel(time_step=limit / 2)).time_step == limit / 2
+    limit = Flow(*channel()).time_step
+    assert Flow(*channel(time_step=limit / 2)).time_step == limit / 2
     with pytest.raises(SphearError, match=rf"^the time step of \S+ is beyond the cfl limit of {limit:g}: .*--force$"):
-        WeaklyCompressible(*channel(time_step=2 * limit))
+        Flow(*channel(time_step=2 * limit))
     problem, settings = channel(sound_speed=1e-3, time_step=10.0)
     with pytest.raises(SphearError, match="body-force limit of"):
-        WeaklyCompressible(replace(problem, speed=1e-3, kinematic_viscosity=1e-9), settings)
-    assert WeaklyCompressible(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
+        Flow(replace(problem, speed=1e-3, kinematic_viscosity=1e-9), settings)
+    assert Flow(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
 
 
 def test_a_resolution_too_coarse_for_mirror_particles_is_refused() -> None:
-    WeaklyCompressible(*channel(resolution=4))
+    Flow(*channel(resolution=4))
     with pytest.raises(SphearError, match=r"the resolution of 3 is too coarse .* support of 1\.04\d+ reach"):
-        WeaklyCompressible(*channel(resolution=3))
+        Flow(*channel(resolution=3))
 
 
 def test_two_passes_need_twice_the_room() -> None:
     with pytest.raises(SphearError, match=r"the resolution of 6 is too coarse .* 2 supports"):
-        WeaklyCompressible(*channel(resolution=6, viscosity="two_pass"))
+        Flow(*channel(resolution=6, viscosity="two_pass"))
 
 
-def failure(flow: WeaklyCompressible, steps: int = 1) -> tuple[float, int, Array, str]:
+def failure(flow: Flow, steps: int = 1) -> tuple[float, int, Array, str]:
     """Time, particle, position and cause, read from the message."""
     with pytest.raises(FlowFailure) as caught:
         flow.advance(steps)
@@ -116,7 +117,7 @@ def test_a_particle_through_a_wall_is_the_one_reported() -> None:
     problem.velocities[fast] = 7.0, 0.0
     problem.positions[outwards, 1] = 0.5 - 1e-9
     problem.velocities[outwards] = 0.0, 4.0
-    flow = WeaklyCompressible(problem, settings)
+    flow = Flow(problem, settings)
     time, particle, place, cause = failure(flow, 100)
     assert particle == outwards
     assert "wall" in cause
@@ -128,7 +129,7 @@ def test_a_particle_through_a_wall_is_the_one_reported() -> None:
 def test_a_speed_above_that_of_sound() -> None:
     problem, settings = channel(sound_speed=30.0)
     problem.velocities[37, 0] = 45.0
-    flow = WeaklyCompressible(problem, settings)
+    flow = Flow(problem, settings)
     _, particle, place, cause = failure(flow)
     assert particle == 37
     assert "speed of sound" in cause
@@ -139,7 +140,7 @@ def test_a_number_that_is_none_leaves_the_last_good_state() -> None:
     """A pressure beyond all numbers; fast-math must not take it for finite."""
     problem, settings = channel(sound_speed=1e160)
     problem.positions[11] += 0.01
-    flow = WeaklyCompressible(problem, settings)
+    flow = Flow(problem, settings)
     time, particle, place, cause = failure(flow)
     assert "not a number" in cause
     assert np.isfinite(place).all()
@@ -152,12 +153,12 @@ def test_a_number_that_is_none_leaves_the_last_good_state() -> None:
 def test_a_velocity_that_is_no_number_is_found() -> None:
     problem, settings = channel()
     problem.velocities[5, 1] = np.nan
-    assert "not a number" in failure(WeaklyCompressible(problem, settings))[3]
+    assert "not a number" in failure(Flow(problem, settings))[3]
 
 
 def test_linear_momentum_is_conserved_to_rounding() -> None:
     problem = box()
-    flow = WeaklyCompressible(problem, conserving())
+    flow = Flow(problem, conserving())
     before = problem.velocities.sum(axis=0)
     flow.advance(50)
     assert np.abs(flow.velocities - problem.velocities).max() > 0.1
@@ -166,9 +167,9 @@ def test_linear_momentum_is_conserved_to_rounding() -> None:
 
 def test_a_moving_frame_sees_the_same_flow() -> None:
     """Galilean invariance, over a periodic side."""
-    rest = WeaklyCompressible(box(), conserving())
+    rest = Flow(box(), conserving())
     wind = np.array([3.0, -2.0])
-    moving = WeaklyCompressible(replace(box(), velocities=box().velocities + wind), conserving())
+    moving = Flow(replace(box(), velocities=box().velocities + wind), conserving())
     rest.advance(20)
     moving.advance(20)
     np.testing.assert_allclose(moving.velocities - wind, rest.velocities, atol=1e-9)
@@ -177,7 +178,7 @@ def test_a_moving_frame_sees_the_same_flow() -> None:
 
 def test_steps_can_be_made_in_parts_and_the_problem_stays_as_it_is() -> None:
     problem = box()
-    whole, parts = WeaklyCompressible(problem, conserving()), WeaklyCompressible(problem, conserving())
+    whole, parts = Flow(problem, conserving()), Flow(problem, conserving())
     whole.advance(7)
     for steps in (0, 3, 4):
         parts.advance(steps)
@@ -203,9 +204,9 @@ def test_a_setting_out_of_range_is_refused(name: str) -> None:
 def test_a_name_that_does_not_exist_is_refused(name: str) -> None:
     wrong: Any = {name: "nobody"}
     with pytest.raises(SphearError, match=r"there is no .* named 'nobody'"):
-        WeaklyCompressible(*channel(**wrong))
+        Flow(*channel(**wrong))
 
 
 def test_a_correction_beside_a_self_corrected_term_is_refused() -> None:
     with pytest.raises(SphearError, match="carries its own correction"):
-        WeaklyCompressible(*channel(viscosity="schwaiger", correction="shepard"))
+        Flow(*channel(viscosity="schwaiger", correction="shepard"))

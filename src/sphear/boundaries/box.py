@@ -98,7 +98,8 @@ def _fill(x, lower, upper, kinds, reach, on_wall, positions, source, wall):  # t
                 # how far beyond a side its first image is: that of the other side's particles, or of its own
                 beyond = at - low if (kinds[axis] == 0) == (side == 1) else high - at
                 image = 1
-                while 0.0 <= beyond < reach and (kinds[axis] == 0 or image < 3):
+                # a particle on its way through a mirror has its image before it
+                while beyond < reach and (beyond >= 0.0 or image < 3) and (kinds[axis] == 0 or image < 3):
                     place = high + beyond if side else low - beyond
                     on = image == 2 and kinds[axis] == 1
                     if on:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.checked import checked
+from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.errors import SphearError
 
 if TYPE_CHECKING:

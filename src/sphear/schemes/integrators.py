@@ -37,18 +37,27 @@ def not_positive(numbers):
 
 
 @njit({options})
-def moved(x, v, count, space, fastest):
-    """Particles back into the box along its periodic axes; what is wrong (a key of CAUSES, else 0) with which."""
+def moved(x, v, count, space, spacing, fastest):
+    """Particles back into the box along its periodic axes; what is wrong (a key of CAUSES, else 0) with which.
+
+    A particle that steps through a mirror changes places with its image. Before fixed particles it may stand between
+    the wall and their first layer for a while.
+    """
     lower, upper, kinds, velocities = space
     square, fast, outside = 0.0, 0, -1
     for i in range(count):
         speed = 0.0
         for k in range(x.shape[1]):
-            if kinds[k] == 0:
-                if not lower[k] <= x[i, k] < upper[k]:
+            if not lower[k] <= x[i, k] < upper[k]:
+                side = 1 if x[i, k] > lower[k] else 0
+                wall = upper[k] if side else lower[k]
+                if kinds[k] == 0:
                     x[i, k] = lower[k] + (x[i, k] - lower[k]) % (upper[k] - lower[k])
-            elif not lower[k] < x[i, k] < upper[k]:
-                outside = i
+                elif not abs(x[i, k] - wall) < (1.0 if kinds[k] == 1 else 0.5) * spacing:
+                    outside = i
+                elif kinds[k] == 1:
+                    x[i, k] = 2.0 * wall - x[i, k]
+                    v[i, k] = 2.0 * velocities[k, side, k] - v[i, k]
             speed += v[i, k] * v[i, k]
         if speed > square:
             square, fast = speed, i
@@ -97,7 +106,7 @@ def advance(x, v, f, change, dt, steps, fresh, fastest, count, parts, space, num
                 v[i, k] = v_half[i, k]
         {whole}
         {test}
-        status, worst = moved(x, v, count, space, fastest)
+        status, worst = moved(x, v, count, space, numbers.spacing, fastest)
         if status:
             return step + 1, status, worst
     return steps, 0, -1
@@ -121,7 +130,7 @@ def advance(x, v, f, change, dt, steps, fresh, fastest, count, parts, space, num
                     v[i, k] += dt * change.velocity[i, k]
             {whole}
             {test}
-            status, worst = moved(x, v, count, space, fastest)
+            status, worst = moved(x, v, count, space, numbers.spacing, fastest)
             if status:
                 return step + 1, status, worst
         old = change.velocity.copy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Generator, Sequence
 from contextlib import suppress
 from importlib import import_module
@@ -31,9 +32,13 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
         SphearError: Dask is not installed, or the scheduler does not answer.
     """
     distributed = _distributed()
+    log = logging.getLogger("distributed.client")
+    level = log.level
+    log.setLevel(logging.CRITICAL)  # it would show tracebacks of what is said in a sentence below
     try:
         client = distributed.Client(address, timeout=CONNECT, set_as_default=False)
     except (OSError, ValueError) as error:
+        log.setLevel(level)
         raise SphearError(f"the scheduler {address} does not answer: {error}") from error
     waiting, running = list(reversed(runs)), dict[Any, Run]()
     try:
@@ -53,6 +58,7 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
         with suppress(OSError, distributed.TimeoutError):
             client.cancel(list(running))
         client.close()
+        log.setLevel(level)
 
 
 def _distributed() -> Any:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from sphear.cases.flow.base import FlowCase, FlowRun
+from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.cavity import CAVITY
 from sphear.cases.flow.couette import COUETTE
 from sphear.cases.flow.poiseuille import POISEUILLE
+from sphear.cases.flow.run import FlowRun
 from sphear.cases.flow.taylor_green import TAYLOR_GREEN
 from sphear.names import Registry
 
 FLOWS: Registry[FlowCase] = Registry("case")
-for _case in (POISEUILLE, COUETTE, TAYLOR_GREEN):
+for _case in (POISEUILLE, COUETTE, TAYLOR_GREEN, CAVITY):
     FLOWS.add(_case.name, _case)
 
-__all__ = ["FLOWS", "FlowCase", "FlowRun"]
+__all__ = ["FLOWS", "Comparison", "FlowCase", "FlowRun"]

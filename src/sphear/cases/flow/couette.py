@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import FlowCase
-from sphear.cases.flow.lattice import staggered_from_walls
+from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.initial import particles_between
 from sphear.references.couette import PlaneCouette
 from sphear.schemes.settings import FlowSettings
 from sphear.schemes.flow import Flow
@@ -27,12 +27,13 @@ def reference(settings: FlowSettings) -> PlaneCouette:
 
 def problem(settings: FlowSettings) -> Problem:
     """A square of particles between a wall at rest below and one that moves above."""
-    positions, spacing = staggered_from_walls(settings.resolution, GAP, centred=False)
     speed = reference(settings).wall_velocity
+    box = Box((0.0, 0.0), (GAP, GAP), ("periodic", "walls"), upper_velocity=(speed, 0.0))
+    positions, spacing = particles_between(box, settings)
     return Problem(
         positions=positions,
         velocities=np.zeros_like(positions),
-        box=Box((0.0, 0.0), (GAP, GAP), ("periodic", "walls"), upper_velocity=(speed, 0.0)),
+        box=box,
         body_force=(0.0, 0.0),
         spacing=spacing,
         density=DENSITY,
@@ -42,15 +43,16 @@ def problem(settings: FlowSettings) -> Problem:
     )
 
 
-def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
-    """The start-up series."""
-    along = reference(settings).velocity(positions[:, 1], time)
-    return np.stack((along, np.zeros_like(along)), axis=1)
+def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
+    """The velocities of all particles beside the start-up series."""
+    y = np.linspace(0.0, GAP, 101)
+    exact = reference(settings).velocity(y, flow.time)
+    return {"u": Comparison("y", flow.positions[:, 1], flow.velocities[:, 0], y, exact)}
 
 
 def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """The RMS error relative to the wall's velocity, and the kinetic energy over that of the steady flow."""
-    along = exact(settings, flow.positions, flow.time)[:, 0]
+    along = reference(settings).velocity(flow.positions[:, 1], flow.time)
     speed = reference(settings).wall_velocity
     steady = reference(settings).steady(flow.positions[:, 1])
     return {
@@ -69,9 +71,10 @@ COUETTE = FlowCase(
     name="couette",
     defaults={"reynolds": 1.0, "resolution": 20},
     problem=problem,
-    exact=exact,
+    comparisons=comparisons,
     time_unit=lambda settings: GAP**2 / KINEMATIC_VISCOSITY,
     time_name="t nu / L^2",
     metrics=metrics,
     ended=ended,
+    horizon=float(-np.log(STEADY) / np.pi**2),
 )

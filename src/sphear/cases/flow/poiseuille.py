@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import FlowCase
-from sphear.cases.flow.lattice import staggered_from_walls
+from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.initial import particles_between
 from sphear.references.poiseuille import PlanePoiseuille, rms_error
 from sphear.schemes.settings import FlowSettings
 from sphear.schemes.flow import Flow
@@ -32,11 +32,12 @@ def reference(settings: FlowSettings) -> PlanePoiseuille:
 def problem(settings: FlowSettings) -> Problem:
     """A square of particles between two walls at rest, periodic along the flow."""
     flow = reference(settings)
-    positions, spacing = staggered_from_walls(settings.resolution, 2 * HALF_WIDTH)
+    box = Box((0.0, -HALF_WIDTH), (2 * HALF_WIDTH, HALF_WIDTH), ("periodic", "walls"))
+    positions, spacing = particles_between(box, settings)
     return Problem(
         positions=positions,
         velocities=np.zeros_like(positions),
-        box=Box((0.0, -HALF_WIDTH), (2 * HALF_WIDTH, HALF_WIDTH), ("periodic", "walls")),
+        box=box,
         body_force=(flow.body_force, 0.0),
         spacing=spacing,
         density=DENSITY,
@@ -46,15 +47,16 @@ def problem(settings: FlowSettings) -> Problem:
     )
 
 
-def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
-    """The start-up series (36), as corrected."""
-    along = reference(settings).velocity(positions[:, 1], time)
-    return np.stack((along, np.zeros_like(along)), axis=1)
+def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
+    """The velocities of all particles beside the start-up series (36), as corrected."""
+    y = np.linspace(-HALF_WIDTH, HALF_WIDTH, 101)
+    exact = reference(settings).velocity(y, flow.time)
+    return {"u": Comparison("y", flow.positions[:, 1], flow.velocities[:, 0], y, exact)}
 
 
 def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """RMS error (38) and kinetic energy over that of the steady flow."""
-    along = exact(settings, flow.positions, flow.time)[:, 0]
+    along = reference(settings).velocity(flow.positions[:, 1], flow.time)
     steady = reference(settings).steady(flow.positions[:, 1])
     return {
         "rms_error": rms_error(flow.velocities[:, 0], along),
@@ -77,9 +79,10 @@ POISEUILLE = FlowCase(
     name="poiseuille",
     defaults={"reynolds": 0.5, "resolution": 20},
     problem=problem,
-    exact=exact,
+    comparisons=comparisons,
     time_unit=lambda settings: reference(settings).time(1.0),
     time_name="t*",
     metrics=metrics,
     ended=ended,
+    horizon=float(np.log(32 / np.pi**3 / STEADY)),  # the slowest mode of the series
 )

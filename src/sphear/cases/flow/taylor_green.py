@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import FlowCase
-from sphear.cases.flow.lattice import staggered_from_walls
+from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.initial import particles_between
 from sphear.references.taylor_green import TaylorGreen
 from sphear.schemes.settings import FlowSettings
 from sphear.schemes.flow import Flow
@@ -26,11 +26,12 @@ def reference(settings: FlowSettings) -> TaylorGreen:
 
 def problem(settings: FlowSettings) -> Problem:
     """A lattice of particles with the exact velocities."""
-    positions, spacing = staggered_from_walls(settings.resolution, SIDE, centred=False)
+    box = Box((0.0, 0.0), (SIDE, SIDE), ("periodic", "periodic"))
+    positions, spacing = particles_between(box, settings)
     return Problem(
         positions=positions,
         velocities=np.ascontiguousarray(reference(settings).velocity(positions, 0.0)),
-        box=Box((0.0, 0.0), (SIDE, SIDE), ("periodic", "periodic")),
+        box=box,
         body_force=(0.0, 0.0),
         spacing=spacing,
         density=DENSITY,
@@ -40,14 +41,22 @@ def problem(settings: FlowSettings) -> Problem:
     )
 
 
-def exact(settings: FlowSettings, positions: Array, time: float) -> Array:
-    """The decaying vortices."""
-    return np.asarray(reference(settings).velocity(positions, time))
+def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
+    """The velocities of the particles near the line x = L / 4 beside the decaying vortices."""
+    y = np.linspace(0.0, SIDE, 101)
+    line = np.stack((np.full_like(y, 0.25 * SIDE), y), axis=1)
+    near = np.abs(flow.positions[:, 0] - 0.25 * SIDE) < 0.5 * flow.problem.spacing
+    exact = np.asarray(reference(settings).velocity(line, flow.time))
+    places, found = flow.positions[near, 1], flow.velocities[near]
+    return {
+        name: Comparison("y", places, found[:, component], y, exact[:, component])
+        for component, name in enumerate(("u near x = L / 4", "v near x = L / 4"))
+    }
 
 
 def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     """L2 error over the exact velocity, kinetic energy, and it over the exact one."""
-    velocity = exact(settings, flow.positions, flow.time)
+    velocity = np.asarray(reference(settings).velocity(flow.positions, flow.time))
     energy = float(0.5 * (flow.velocities**2).sum() * flow.problem.spacing**2 * DENSITY)
     return {
         "l2_error": float(np.linalg.norm(flow.velocities - velocity) / np.linalg.norm(velocity)),
@@ -65,9 +74,10 @@ TAYLOR_GREEN = FlowCase(
     name="taylor-green",
     defaults={"reynolds": 100.0, "resolution": 50, "until": 0.5},
     problem=problem,
-    exact=exact,
+    comparisons=comparisons,
     time_unit=lambda settings: SIDE / SPEED,
     time_name="t U / L",
     metrics=metrics,
     ended=ended,
+    headline="l2_error",
 )

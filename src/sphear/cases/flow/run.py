@@ -1,0 +1,175 @@
+"""A run of a case: advanced from one output to the next until it ends or fails; kept, and gone on with."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries import WALL_VELOCITIES
+from sphear.cases.flow.base import FlowCase
+from sphear.corrections import CORRECTIONS
+from sphear.errors import SphearError
+from sphear.kernels import KERNELS
+from sphear.schemes.flow import Flow, FlowFailure
+from sphear.schemes.settings import FlowSettings
+from sphear.viscosity import VISCOSITY
+
+OUTPUTS = 200  # of a run to its planned end
+SAVED_EVERY = 60.0  # seconds
+
+
+class FlowRun:
+    """A run of a case: where it stands, and what was found at each output.
+
+    Args:
+        case: what is computed.
+        settings: how.
+
+    Attributes:
+        flow: the state.
+        history: a row for each output: time in the unit of the case, steps and the metrics.
+        end: "steady", "time", "steps" or "failed: ..."; empty while it goes on.
+        seconds: spent in the time loop, its compilation not counted.
+
+    Raises:
+        SphearError: the settings do not fit the case or each other.
+    """
+
+    def __init__(self, case: FlowCase, settings: FlowSettings) -> None:
+        self.case, self.settings = case, settings
+        self.flow = Flow(case.problem(settings), settings)
+        self.unit = case.time_unit(settings)
+        self.history: list[dict[str, float]] = []
+        self.end = ""
+        self.seconds = 0.0
+
+    @property
+    def planned(self) -> float:
+        """When the run is expected to end, in the time unit of the case; infinite if nothing says."""
+        horizon = self.case.horizon if self.settings.until is None else self.settings.until
+        return np.inf if horizon is None else horizon
+
+    def run(self, progress: Callable[[str], None] = lambda text: None, keep: Path | None = None) -> FlowRun:
+        """Advance until the end; a failure is an end too, and keeps all that was found.
+
+        Args:
+            progress: told where the run stands, at each output.
+            keep: a file that the state is saved to now and then, and when the run is interrupted.
+        """
+        self.flow.advance(0)  # compiles
+        steps = min(self.planned * self.unit / self.flow.time_step, self.settings.max_steps)
+        every = int(np.clip(steps / OUTPUTS, 1, 1000))
+        until = np.inf if self.settings.until is None else self.settings.until * self.unit
+        saved = time.monotonic()
+        try:
+            while not self.end:
+                left = min(
+                    self.settings.max_steps - self.flow.steps, np.ceil((until - self.flow.time) / self.flow.time_step)
+                )
+                began = time.perf_counter()
+                try:
+                    self.flow.advance(int(min(every, max(1, left))))
+                except FlowFailure as failure:
+                    self.end = f"failed: {failure}"
+                self.seconds += time.perf_counter() - began
+                self._observe(until)
+                progress(self._standing(steps))
+                if keep is not None and time.monotonic() - saved > SAVED_EVERY:
+                    self.save(keep)
+                    saved = time.monotonic()
+        except KeyboardInterrupt:
+            if keep is not None:
+                self.save(keep)
+            raise
+        return self
+
+    def _standing(self, steps: float) -> str:
+        left = (min(steps, self.settings.max_steps) - self.flow.steps) * self.seconds / max(1, self.flow.steps)
+        ending = f", {left:.0f} s left" if np.isfinite(left) and left > 1 else ""
+        return f"{self.case.time_name} = {self.history[-1]['time']:.4g}, step {self.flow.steps}{ending}"
+
+    def _observe(self, until: float) -> None:
+        metrics = self.case.metrics(self.settings, self.flow)
+        self.history.append({"time": self.flow.time / self.unit, "steps": self.flow.steps, **metrics})
+        if self.end:
+            return
+        self.end = self.case.ended(self.settings, self.flow, metrics) or ""
+        if not self.end and self.flow.time >= until * (1 - 1e-12):
+            self.end = "time"
+        elif not self.end and self.flow.steps >= self.settings.max_steps:
+            self.end = "steps"
+
+    def save(self, path: Path) -> None:
+        """Write all that the run needs to go on to a file, an `.npz` of NumPy."""
+        about = {
+            "case": self.case.name,
+            "settings": self.settings.model_dump(mode="json"),
+            "history": self.history,
+            "seconds": self.seconds,
+        }
+        temporary = path.with_suffix(".tmp")
+        with temporary.open("wb") as file:
+            np.savez(file, allow_pickle=False, about=np.array(json.dumps(about)), **self.flow.state())
+        os.replace(temporary, path)  # a run that is killed meanwhile leaves the file before
+
+    def restore(self, path: Path) -> None:
+        """Go on from a file that `save` wrote.
+
+        Raises:
+            SphearError: it cannot be read, or is of another run.
+        """
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                state = dict(file)
+            about = json.loads(str(state.pop("about")))
+        except (OSError, ValueError, KeyError):
+            raise SphearError(f"there is no saved run in {path} that could be gone on with") from None
+        now = self.settings.model_dump(mode="json")
+        changed = [
+            key
+            for key, value in now.items()
+            if about["settings"].get(key) != value and key not in ("until", "max_steps", "threads", "force")
+        ]
+        if about["case"] != self.case.name:
+            raise SphearError(f"the saved run in {path} is of {about['case']}, not of {self.case.name}")
+        if changed:
+            was = about["settings"].get(changed[0])
+            raise SphearError(f"the saved run in {path} has {changed[0]} = {was}, not {now[changed[0]]}")
+        self.flow.restore(state)
+        self.history, self.seconds = about["history"], about["seconds"]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Case, resolved settings, metrics and performance, as `--json` prints them."""
+        flow, settings = self.flow, self.settings
+        resolved = {
+            "viscosity": VISCOSITY.name(settings.viscosity),
+            "correction": CORRECTIONS.name(settings.correction),
+            "kernel": KERNELS.name(settings.kernel),
+            "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
+            "momentum": settings.form,
+            "h_over_dx": flow.kernel.h / flow.problem.spacing,
+            "sound_speed": flow.sound_speed,
+            "time_step": flow.time_step,
+            "threads": flow.threads,
+            "kinematic_viscosity": flow.problem.kinematic_viscosity,
+        }
+        last = self.history[-1]
+        failed = self.end.startswith("failed")
+        summary = {} if failed else self.case.summary(settings, flow)
+        return {
+            "case": self.case.name,
+            "settings": {**settings.model_dump(mode="json"), **resolved},
+            "metrics": {**last, **summary, "end": self.end, "failure_time": last["time"] if failed else None},
+            "performance": {
+                "particles": len(flow.positions),
+                "steps": flow.steps,
+                "seconds": self.seconds,
+                "particle_steps_per_second": len(flow.positions) * flow.steps / max(self.seconds, 1e-9),
+            },
+        }

@@ -1,0 +1,74 @@
+"""Runs on two Dask workers, one of which is killed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import sphear.sweeps.cluster
+from sphear.errors import SphearError
+from sphear.sweeps import Store, plan, run_sweep
+
+from .sweep_functions import KILLS, RAISES
+
+distributed = pytest.importorskip("distributed")
+pytestmark = pytest.mark.filterwarnings("default")  # of Dask and what it uses
+
+Sweep = Callable[..., Any]
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    import dask
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(Path(__file__).parent)  # workers start with the path of their parent
+        with (
+            dask.config.set({"distributed.scheduler.allowed-failures": 0}),
+            distributed.LocalCluster(
+                n_workers=2, processes=True, threads_per_worker=1, dashboard_address=None, silence_logs=50
+            ) as cluster,
+        ):
+            yield cluster.scheduler_address
+
+
+def test_flows_on_two_workers_are_those_of_one_process(address: str, tmp_path: Path) -> None:
+    runs = plan("poiseuille", {"resolution": [8, 9, 10]}, {"until": 0.05})
+    here = run_sweep(runs, Store(tmp_path / "here"))
+    there = run_sweep(runs, Store(tmp_path / "there"), scheduler=address)
+    assert [result.metrics for result in there] == [result.metrics for result in here]
+    assert len(list((tmp_path / "there").iterdir())) == 3
+
+
+def test_both_workers_are_used(address: str, sweep: Sweep) -> None:
+    results = sweep([10, 20, 30, 40, 50, 60], scheduler=address)
+    assert [result.settings["resolution"] for result in results] == [10, 20, 30, 40, 50, 60]
+    assert len({result.performance["pid"] for result in results}) == 2
+
+
+def test_a_worker_that_is_killed_loses_its_run_alone(address: str, sweep: Sweep) -> None:
+    results = sweep([10, 80, KILLS, RAISES, 20, 30, 90], scheduler=address)
+    assert [result.end for result in results if not result.lost] == 5 * ["time"]
+    assert results[2].end == "lost: its worker was killed"
+    assert results[3].end == "lost: ZeroDivisionError: there is nothing to divide by"
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense://somewhere", "nowhere"])
+def test_a_scheduler_that_does_not_answer_is_one_sentence(
+    address: str, sweep: Sweep, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sphear.sweeps.cluster, "CONNECT", 1.0)
+    with pytest.raises(SphearError, match="does not answer"):
+        sweep([10], scheduler=address)
+
+
+def test_without_dask_the_extra_is_named(sweep: Sweep, monkeypatch: pytest.MonkeyPatch) -> None:
+    def absent(name: str) -> None:
+        raise ImportError(name)
+
+    monkeypatch.setattr(sphear.sweeps.cluster, "import_module", absent)
+    with pytest.raises(SphearError, match=r"needs the extra 'cluster': pip install 'sphear\[cluster\]'"):
+        sweep([10], scheduler="tcp://127.0.0.1:8786")

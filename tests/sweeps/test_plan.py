@@ -1,0 +1,88 @@
+"""What a sweep computes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from sphear.cases.flow import FLOWS
+from sphear.errors import SphearError
+from sphear.sweeps import Run, plan
+
+
+def test_all_combinations_the_last_setting_changes_fastest() -> None:
+    runs = plan("couette", {"viscosity": ["morris", "violeau"], "resolution": [10, 20]}, {"until": 0.1})
+    found = [(run.settings.viscosity, run.settings.resolution) for run in runs]
+    assert found == [("morris", 10), ("morris", 20), ("violeau", 10), ("violeau", 20)]
+    assert {run.case for run in runs} == {"couette"}
+    assert {run.settings.until for run in runs} == {0.1}
+
+
+def test_settings_are_those_of_the_case() -> None:
+    (run,) = plan("couette", {"resolution": [10]})
+    assert run.settings == FLOWS["couette"].settings(resolution=10)
+
+
+def test_values_may_be_text() -> None:
+    assert plan("poiseuille", {"reynolds": ["0.5"]}) == plan("poiseuille", {"reynolds": [0.5]})
+
+
+def test_aliases_and_repeated_values_are_one_run() -> None:
+    runs = plan("poiseuille", {"viscosity": ["morris", "E", "morris"], "resolution": [10, "10"]})
+    assert [run.settings.viscosity for run in runs] == ["morris"]
+
+
+def test_a_run_without_choices_is_one_run() -> None:
+    assert len(plan("taylor_green", {})) == 1
+
+
+def run(**settings: Any) -> Run:
+    return Run("poiseuille", FLOWS["poiseuille"].settings(**settings))
+
+
+def test_the_key_is_readable_and_changes_with_every_setting_that_matters() -> None:
+    assert run().key.startswith("poiseuille-morris-none-re0.5-n20-")
+    changed: list[dict[str, Any]] = [
+        {}, {"until": 1}, {"kernel": "wendland_c2"}, {"h_over_dx": 1.2}, {"max_steps": 3}, {"wall_velocity": "mirror"},
+        {"sound_speed": 50}, {"time_step": 1e-5},
+    ]  # fmt: skip
+    assert len({run(**settings).key for settings in changed}) == len(changed)
+    assert run().key != Run("couette", run().settings).key
+
+
+def test_the_key_does_not_change_with_what_does_not_matter() -> None:
+    assert run(force=True).key == run().key
+    assert run(until=1).key == run(until=1.0).key
+    assert run(viscosity="E").key == run().key
+    assert Run("Poiseuille", run().settings).key == run().key
+
+
+def test_a_file_can_have_the_key_as_its_name() -> None:
+    assert "/" not in run(viscosity="cleary_4.24", reynolds=1e-30).key
+
+
+def test_longer_runs_cost_more() -> None:
+    assert run(until=1).cost < run(until=2).cost < run(until=2, resolution=40).cost
+    assert run(max_steps=10).cost == pytest.approx(400 * 10)
+
+
+WRONG: dict[str, tuple[str, dict[str, Any], dict[str, Any], str]] = {
+    "case": ("poisseuille", {"resolution": [10]}, {}, "no case named 'poisseuille': did you mean poiseuille"),
+    "key": ("poiseuille", {"resolutoin": [10]}, {}, "no setting named 'resolutoin': did you mean resolution"),
+    "fixed key": ("poiseuille", {"resolution": [10]}, {"kernl": 1}, "no setting named 'kernl': did you mean kernel"),
+    "no values": ("poiseuille", {"resolution": []}, {}, "the setting resolution needs a list of at least one value"),
+    "text": ("poiseuille", {"kernel": "cubic"}, {}, "the setting kernel needs a list"),
+    "both": ("poiseuille", {"reynolds": [1]}, {"reynolds": 2}, "the setting reynolds is both fixed and swept over"),
+    "value": ("poiseuille", {"reynolds": [1, -1]}, {}, "the setting reynolds should be greater than 0, not -1"),
+    "name": ("poiseuille", {"viscosity": ["morris", "moris"]}, {}, "no viscosity named 'moris': did you mean morris"),
+    "together": ("poiseuille", {"resolution": [20, 3]}, {}, "the resolution of 3 is too coarse"),
+}
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_what_is_wrong_is_refused_in_a_sentence(what: str) -> None:
+    case, over, fixed, sentence = WRONG[what]
+    with pytest.raises(SphearError) as refused:
+        plan(case, over, fixed)
+    assert sentence in str(refused.value)
