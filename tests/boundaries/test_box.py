@@ -14,36 +14,39 @@ from sphear.boundaries.box import with_images
 
 Array = np.ndarray[Any, Any]
 Image = tuple[Any, ...]
+ON_WALL = 64
 
 
-def images(box: Box, x: Array, reach: float) -> list[Image]:
-    """(source, wall, depth, *place) of the images that `with_images` makes, sorted."""
+def images(box: Box, x: Array, reach: float, on_wall: float = 0.0) -> list[Image]:
+    """(source, wall, *place) of the images that `with_images` makes, sorted."""
     lower, upper, kinds, _ = box.arrays()
-    positions, source, wall, depth = with_images(x, lower, upper, kinds, reach)
+    positions, source, wall = with_images(x, lower, upper, kinds, reach, on_wall)
     np.testing.assert_array_equal(source[: len(x)], np.arange(len(x)))
     assert not wall[: len(x)].any()
-    assert not depth[: len(x)].any()
-    return rounded(zip(source, wall, depth, *positions.T, strict=True))
+    return rounded(zip(source, wall, *positions.T, strict=True))
 
 
-def brute_force(box: Box, x: Array, reach: float) -> list[Image]:
-    """Every combination, axis by axis, of staying, being shifted by periods or being reflected at a wall."""
+def brute_force(box: Box, x: Array, reach: float, on_wall: float = 0.0) -> list[Image]:
+    """Every combination, axis by axis, of staying, being shifted, being reflected at a wall or being put on it."""
     found = []
     for i, place in enumerate(x):
-        along: list[list[tuple[float, int, float]]] = []  # place, wall and depth
-        for at, low, high, side in zip(place, box.lower, box.upper, box.sides, strict=True):
+        along: list[list[tuple[float, int]]] = []  # place and bits of the wall
+        for axis, (at, low, high, side) in enumerate(zip(place, box.lower, box.upper, box.sides, strict=True)):
             period = high - low
             if side == "periodic":
                 inside = low + (at - low) % period
                 many = range(-2 - int(reach / period), 3 + int(reach / period))
                 shifted = [(inside + n * period, n) for n in many]
-                kept = [(p, 0, 0.0) for p, n in shifted if n == 0 or 0 <= (p - high if n > 0 else low - p) < reach]
+                kept = [(p, 0) for p, n in shifted if n == 0 or 0 <= (p - high if n > 0 else low - p) < reach]
             else:
-                mirrored = [(2 * low - at, 1, at - low), (2 * high - at, 2, high - at)]
-                kept = [(at, 0, 0.0), *(m for m in mirrored if 0 <= m[2] < reach)]
+                kept = [(at, 0)]
+                for number, (wall, depth) in enumerate(((low, at - low), (high, high - at))):
+                    bit = 1 << (2 * axis + number)
+                    kept += [(2 * wall - at, bit)] if depth < reach else []
+                    kept += [(wall, bit | ON_WALL)] if abs(depth) < min(on_wall, reach) else []
             along.append(kept)
         for choice in product(*along):
-            found.append((i, max(c[1] for c in choice), max(c[2] for c in choice), *(c[0] for c in choice)))
+            found.append((i, int(np.bitwise_or.reduce([bits for _, bits in choice])), *(p for p, _ in choice)))
     return rounded(found)
 
 
@@ -51,15 +54,16 @@ def rounded(found: Any) -> list[Image]:
     return sorted(tuple(round(float(number), 9) + 0.0 for number in image) for image in found)
 
 
-SIDES = [("periodic", "periodic"), ("periodic", "walls"), ("walls", "periodic")]
+SIDES = list(product(("periodic", "walls"), repeat=2))
 
 
 @pytest.mark.parametrize("sides", SIDES)
+@pytest.mark.parametrize("on_wall", [0.0, 0.2])
 @pytest.mark.parametrize("reach", [0.31, 0.97, 2.3])
-def test_images_are_those_of_brute_force(sides: Any, reach: float) -> None:
+def test_images_are_those_of_brute_force(sides: Any, reach: float, on_wall: float) -> None:
     box = Box((-0.5, 0.2), (0.5, 0.9), sides)
     x = np.array(box.lower) + np.random.default_rng(0).random((23, 2)) * np.subtract(box.upper, box.lower)
-    assert images(box, x, reach) == brute_force(box, x, reach)
+    assert images(box, x, reach, on_wall) == brute_force(box, x, reach, on_wall)
 
 
 @pytest.mark.parametrize("sides", SIDES)
@@ -71,7 +75,7 @@ def test_particles_outside_come_back_over_periodic_sides_only(sides: Any) -> Non
             x[0, axis] -= 3 * box.upper[axis]
             x[1, axis] += 5 * box.upper[axis]
     assert images(box, x, 0.4) == brute_force(box, x, 0.4)
-    assert (0.0, 0.0, 0.0, 0.1, 0.2) in images(box, x, 0.4)
+    assert (0.0, 0.0, 0.1, 0.2) in images(box, x, 0.4)
 
 
 @pytest.mark.parametrize("sides", SIDES)
@@ -81,17 +85,39 @@ def test_a_particle_on_a_side_has_its_images(sides: Any) -> None:
     assert images(box, x, 0.3) == brute_force(box, x, 0.3)
 
 
+def test_a_particle_on_its_way_through_a_mirror_has_its_image_before_it() -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"))
+    found = images(box, np.array([[0.5, -0.05], [0.5, 1.02]]), 0.3, 0.1)
+    assert found == rounded([
+        (0, 0, 0.5, -0.05), (0, 4, 0.5, 0.05), (0, 4 | 64, 0.5, 0.0),
+        (1, 0, 0.5, 1.02), (1, 8, 0.5, 0.98), (1, 8 | 64, 0.5, 1.0),
+    ])  # fmt: skip
+
+
+def test_a_corner_mirrors_at_both_walls_and_at_each() -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"))
+    found = images(box, np.array([[0.1, 0.8]]), 0.3)
+    assert found == rounded([(0, 0, 0.1, 0.8), (0, 1, -0.1, 0.8), (0, 8, 0.1, 1.2), (0, 1 | 8, -0.1, 1.2)])
+
+
+def test_there_is_nothing_beyond_open_sides() -> None:
+    lower, upper, kinds, _ = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls")).arrays(mirrored=False)
+    positions, source, wall = with_images(np.array([[0.1, 0.8]]), lower, upper, kinds, 0.3, 0.3)
+    assert (positions.tolist(), source.tolist(), wall.tolist()) == ([[0.1, 0.8]], [0], [0])
+
+
 def test_a_particle_just_below_a_periodic_side_stays_within_rounding_of_it() -> None:
     box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"))
-    places = {image[3:] for image in images(box, np.array([[-1e-20, 0.5]]), 0.3)}
+    places = {image[2:] for image in images(box, np.array([[-1e-20, 0.5]]), 0.3)}
     assert places == {(0.0, 0.5), (1.0, 0.5)}
 
 
-def test_three_dimensions() -> None:
-    box = Box((0.0, 0.0, 0.0), (1.0, 1.5, 0.5), ("periodic", "walls", "periodic"))
+@pytest.mark.parametrize("sides", [("periodic", "walls", "periodic"), ("walls", "walls", "walls")])
+def test_three_dimensions(sides: Any) -> None:
+    box = Box((0.0, 0.0, 0.0), (1.0, 1.5, 0.5), sides)
     x = np.random.default_rng(1).random((9, 3)) * box.upper
-    assert images(box, x, 0.6) == brute_force(box, x, 0.6)
-    np.testing.assert_array_equal(box.arrays()[3], np.zeros((2, 3)))
+    assert images(box, x, 0.6, 0.2) == brute_force(box, x, 0.6, 0.2)
+    np.testing.assert_array_equal(box.arrays()[3], np.zeros((3, 2, 3)))
 
 
 def test_room_for_images_grows_with_their_number() -> None:
@@ -99,26 +125,26 @@ def test_room_for_images_grows_with_their_number() -> None:
     box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"))
     x = np.random.default_rng(2).random((6000, 2))
     lower, upper, kinds, _ = box.arrays()
-    positions, source, _, _ = with_images(x, lower, upper, kinds, 2.0 + 1e-9)
+    positions, source, _ = with_images(x, lower, upper, kinds, 2.0 + 1e-9, 0.0)
     inside = ((positions > -2) & (positions < 3)).all(axis=1)
     np.testing.assert_array_equal(np.bincount(source[inside], minlength=len(x)), 25)
     np.testing.assert_allclose((positions - x[source]) % 1.0 % (1.0 - 1e-9), 0.0, atol=2e-9)
 
 
-def test_depth_and_velocities_belong_to_their_walls() -> None:
-    box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"), upper_velocity=(2.0, 0.0))
-    assert box.wall_axis == 1
-    np.testing.assert_array_equal(box.arrays()[3], [[0.0, 0.0], [2.0, 0.0]])
-    found = images(box, np.array([[0.5, 0.1], [0.5, 0.8]]), 0.25)
-    assert found == [(0, 0, 0, 0.5, 0.1), (0, 1, 0.1, 0.5, -0.1), (1, 0, 0, 0.5, 0.8), (1, 2, 0.2, 0.5, 1.2)]
+def test_velocities_belong_to_the_last_walls() -> None:
+    channel = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"), upper_velocity=(2.0, 0.0))
+    assert channel.wall_axes == (1,)
+    np.testing.assert_array_equal(channel.arrays()[3], [np.zeros((2, 2)), [[0.0, 0.0], [2.0, 0.0]]])
+    cavity = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), (-1.0, 0.0), (2.0, 0.0))
+    assert cavity.wall_axes == (0, 1)
+    np.testing.assert_array_equal(cavity.arrays()[3], [np.zeros((2, 2)), [[-1.0, 0.0], [2.0, 0.0]]])
 
 
 def test_no_walls() -> None:
-    assert Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic")).wall_axis == -1
+    assert Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic")).wall_axes == ()
 
 
 WRONG: dict[str, tuple[tuple[Any, ...], str]] = {
-    "corners": (((0.0, 0.0), (1.0, 1.0), ("walls", "walls")), "walls along one axis at most"),
     "upside down": (((0.0, 1.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "flat": (((0.0, 0.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "infinite": (((0.0, 0.0), (1.0, np.inf), ("periodic", "walls")), "beyond the lower one"),

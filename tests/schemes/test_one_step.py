@@ -1,206 +1,133 @@
-"""One time step against another program: plain NumPy over all pairs, written from the equations of Basa et al. 2009."""
+"""One time step, or a few, of each combination of settings against another program, `plain`."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from itertools import product
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
 import pytest
 
 from sphear.boundaries import Box
-from sphear.cases.flow import FLOWS
 from sphear.schemes.flow import Flow
 from sphear.schemes.problem import Problem
+from sphear.schemes.settings import FlowSettings
+from tests.particles import jittered
+from tests.schemes.plain import Array, Plain
 
-Array = np.ndarray[Any, Any]
+COUNT, LID = 8, 0.7
+FORCE = (3.0, -2.0)
+CHOICES = {
+    "viscosity": ("takeda", "two_pass", "violeau", "cleary", "morris"),
+    "correction": ("none", "shepard", "bonet_lok"),
+    "equation_of_state": ("batchelor_tait", "ideal_gas"),
+    "density": ("summation", "continuity"),
+}
+STATES = {"tait": "batchelor_tait", "gas": "ideal_gas", "linear": "linear"}
 
-COUNT, WIDTH, NU, RHO0 = 8, 1.0, 1.0, 1.0
-FORCE, UPPER_VELOCITY = np.array([3.0, -2.0]), 0.7
-
-
-@dataclass(frozen=True)
-class Plain:
-    """A channel between y = -1/2 and 1/2, of period 1; the upper wall moves along x."""
-
-    viscosity: str
-    correction: str
-    wall: str
-    reduced: bool
-    stiff: bool
-    h: float
-    sound_speed: float
-    spacing: float
-
-    def w(self, q: Array) -> tuple[Array, Array, Array]:
-        """w, w' and w'' of the cubic spline, by its usual two pieces."""
-        inner, outer = q < 1, (q >= 1) & (q < 2)
-        w = np.where(inner, 1 - 1.5 * q**2 + 0.75 * q**3, np.where(outer, 0.25 * (2 - q) ** 3, 0))
-        slope = np.where(inner, -3 * q + 2.25 * q**2, np.where(outer, -0.75 * (2 - q) ** 2, 0))
-        curvature = np.where(inner, -3 + 4.5 * q, np.where(outer, 1.5 * (2 - q), 0))
-        sigma = 10 / (7 * np.pi * self.h**2)
-        return sigma * w, sigma / self.h * slope, sigma / self.h**2 * curvature
-
-    def extended(self, x: Array, v: Array) -> tuple[Array, Array, Array]:
-        """All particles and images as (places, source, velocities): mirrored once, and shifted by several periods."""
-        walls = np.array([[0.0, 0.0], [UPPER_VELOCITY, 0.0]])
-        places, velocities = [x], [v]
-        for wall, y_wall, inwards in ((walls[0], -0.5, 1.0), (walls[1], 0.5, -1.0)):
-            y = inwards * (x[:, 1] - y_wall)
-            behind = 2 * wall - v
-            if self.wall == "linear":
-                near = y < self.spacing
-                slope = np.sum((v[near, 0] - wall[0]) * y[near]) / np.sum(y[near] ** 2)
-                behind[:, 0] = wall[0] - slope * y
-            places.append(np.stack((x[:, 0], 2 * y_wall - x[:, 1]), axis=1))
-            velocities.append(behind)
-        shifts = [np.array([n * WIDTH, 0.0]) for n in (0, 1, -1, 2, -2)]
-        everywhere = np.concatenate([place + shift for shift, place in product(shifts, places)])
-        source = np.tile(np.arange(len(x)), len(shifts) * len(places))
-        return everywhere, source, np.tile(np.concatenate(velocities), (len(shifts), 1))
-
-    def acceleration(self, x: Array, v: Array) -> tuple[Array, Array, Array]:
-        """Acceleration, density and pressure."""
-        at, source, u = self.extended(x, v)
-        mass = RHO0 * self.spacing**2
-        d = at[: len(x), None] - at[None]
-        r = np.sqrt((d**2).sum(axis=-1))
-        apart = r > 0
-        inverse = 1 / np.where(apart, r, 1)
-        w, slope, curvature = self.w(r / self.h)
-        gradient = (slope * inverse)[..., None] * d
-
-        rho = (mass * w).sum(axis=1)  # (11)
-        p = (
-            RHO0 * self.sound_speed**2 / 7 * ((rho / RHO0) ** 7 - 1)  # (13)
-            if self.stiff
-            else self.sound_speed**2 * (rho - RHO0)
-        )
-        rho_e, p_e = rho[source], p[source]
-        volume = mass / rho_e
-        mu = RHO0 * NU
-
-        one = (volume * w).sum(axis=1)
-        grad_one = (volume[:, None] * gradient).sum(axis=1)
-        kernel_gradient = gradient
-        if self.correction != "none":  # (22), (26)
-            gradient = gradient / one[:, None, None] - w[..., None] * (grad_one / one[:, None] ** 2)[:, None]
-        if self.correction == "bonet_lok":
-            moments = np.einsum("e,iea,eb->iab", volume, gradient, at)
-            gradient = np.einsum("iab,ieb->iea", np.linalg.inv(moments), gradient)
-
-        neighbours = apart & (r < 2 * self.h)
-        mean = (neighbours * p_e).sum(axis=1) / neighbours.sum(axis=1) if self.reduced else np.zeros(len(x))
-        stress = ((p - mean) / rho**2)[:, None] + (p_e - mean[:, None]) / rho_e**2  # (20), (8)
-        result = -(mass * stress[..., None] * gradient).sum(axis=1)
-
-        du = v[:, None] - u[None]
-        rho_i, rho_j = rho[:, None], rho_e[None]
-        if self.viscosity == "morris":  # (35)
-            factor = mass * 2 * mu / (rho_i * rho_j) * (d * gradient).sum(axis=-1) * inverse**2
-            result += (factor[..., None] * du).sum(axis=1)
-        elif self.viscosity in ("violeau", "cleary_4.24"):
-            if self.viscosity == "violeau":  # (33)
-                factor = 8 * mass / (rho_i + rho_j) * (mu / rho_i + mu / rho_j)
-            else:  # (34)
-                factor = 4.24 * mass / (rho_i * rho_j) * 4 * mu * mu / (mu + mu)
-            factor = factor * (du * d).sum(axis=-1) / (r**2 + (0.1 * self.h) ** 2)
-            result += (factor[..., None] * gradient).sum(axis=1)
-        elif self.viscosity == "takeda":  # (6) with (23)
-            along = d * inverse[..., None]
-            direct = along[..., :, None] * along[..., None, :]
-            transverse = (slope * inverse)[..., None, None] * (np.eye(2) - direct)
-            hessian = np.where(
-                apart[..., None, None],
-                curvature[..., None, None] * direct + transverse,
-                curvature[..., None, None] * np.eye(2),
-            )
-            second = self._second_derivatives(volume, u, w, kernel_gradient, hessian)  # (i, component, a, b)
-            laplacian = np.einsum("ikaa->ik", second)
-            grad_div = np.einsum("ibab->ia", second)
-            result += mu / rho[:, None] * (laplacian + grad_div / 3)
-        else:  # (5), (29): the stress of all that can be a neighbour, then its divergence
-            result += self._two_passes(at, u, volume, mu, rho, kernel_gradient)
-        return result + FORCE, rho, p
-
-    def _second_derivatives(self, volume: Array, u: Array, w: Array, gradient: Array, hessian: Array) -> Array:
-        one = np.einsum("e,ie->i", volume, w)[:, None, None, None]
-        d_one = np.einsum("e,iea->ia", volume, gradient)
-        dd_one = np.einsum("e,ieab->iab", volume, hessian)
-        f = np.einsum("e,ek,ie->ik", volume, u, w)
-        df = np.einsum("e,ek,iea->ika", volume, u, gradient)
-        ddf = np.einsum("e,ek,ieab->ikab", volume, u, hessian)
-        mixed = np.einsum("ika,ib->ikab", df, d_one)
-        numerator = ddf * one - mixed - mixed.swapaxes(2, 3) - np.einsum("ik,iab->ikab", f, dd_one)
-        return np.asarray(numerator / one**2 + 2 * np.einsum("ik,ia,ib->ikab", f, d_one, d_one) / one**3)
-
-    def _two_passes(self, at: Array, u: Array, volume: Array, mu: float, rho: Array, gradient: Array) -> Array:
-        tau = np.zeros((len(at), 2, 2))
-        for e in np.flatnonzero(np.abs(gradient).sum(axis=(0, 2)) > 0):
-            d = at[e] - at
-            r = np.sqrt((d**2).sum(axis=1))
-            grad_w = (self.w(r / self.h)[1] / np.where(r > 0, r, 1))[:, None] * d
-            grad_u = np.einsum("k,ka,kb->ab", volume, u, grad_w)
-            tau[e] = mu * (grad_u + grad_u.T - 2 / 3 * np.trace(grad_u) * np.eye(2))
-        return np.asarray(np.einsum("e,eab,ieb->ia", volume, tau, gradient) / rho[:, None])
-
-    def step(self, x: Array, v: Array, dt: float) -> tuple[Array, Array, Array, Array]:
-        """The midpoint rule."""
-        first, *_ = self.acceleration(x, v)
-        x_half, v_half = x + dt / 2 * v, v + dt / 2 * first
-        second, rho, p = self.acceleration(x_half, v_half)
-        x, v = x + dt * v_half, v + dt * second
-        return np.stack((x[:, 0] % WIDTH, x[:, 1]), axis=1), v, rho, p
+# viscosity, correction, equation of state, density and what else is set; every pair of `CHOICES` occurs
+COMBINATIONS: list[tuple[str, dict[str, Any]]] = [
+    ("takeda none tait summation", {}),
+    ("takeda shepard gas continuity", {"wall_velocity": "quadratic"}),
+    ("takeda bonet_lok tait continuity", {"pressure_reduction": "none", "integrator": "kick_drift_kick"}),
+    ("two_pass none gas summation", {"pressure_reduction": "hydrostatic"}),
+    ("two_pass shepard tait summation", {"walls": "fixed"}),
+    ("two_pass bonet_lok gas continuity", {"wall_particles": True, "wall_velocity": "quadratic"}),
+    ("violeau none tait summation", {"cavity": True, "pressure_reduction": "none"}),
+    (
+        "violeau shepard gas summation",
+        {"pressure_reduction": "hydrostatic", "wall_velocity": "mirror", "integrator": "kick_drift_kick"},
+    ),
+    ("violeau bonet_lok tait continuity", {"walls": "adami"}),
+    ("cleary none tait continuity", {"density_diffusion": 0.1, "integrator": "kick_drift_kick"}),
+    ("cleary shepard tait summation", {"transport": "transport_velocity"}),
+    (
+        "cleary bonet_lok gas summation",
+        {"pressure_reduction": "none", "wall_velocity": "global_quadratic", "wall_particles": True},
+    ),
+    ("morris none gas continuity", {"walls": "fixed", "pressure_reduction": "hydrostatic"}),
+    ("morris shepard tait summation", {"walls": "fixed", "cavity": True}),
+    ("morris bonet_lok gas summation", {"cavity": True, "wall_velocity": "quadratic"}),
+    ("morris none linear summation", {"transport": "shifting"}),
+    ("morris shepard linear continuity", {"transport": "shifting", "density_diffusion": 0.1, "cavity": True}),
+    ("morris none tait summation", {"transport": "transport_velocity", "integrator": "kick_drift_kick"}),
+    ("morris none tait continuity", {"walls": "fixed", "wall_velocity": "quadratic", "integrator": "kick_drift_kick"}),
+    ("violeau none tait summation", {"walls": "adami", "transport": "transport_velocity"}),
+    ("cleary_4.24 none gas continuity", {"walls": "adami", "pressure_reduction": "none"}),
+    ("oger shepard tait summation", {}),
+    ("least_squares shepard tait continuity", {"pressure_reduction": "none"}),
+]
 
 
-def channel() -> Problem:
+def settings(names: str, changes: dict[str, Any]) -> FlowSettings:
+    viscosity, correction, state, density = names.split()
+    others = {name: value for name, value in changes.items() if name != "cavity"}
+    return FlowSettings(
+        viscosity=viscosity, correction=correction, equation_of_state=STATES[state], density=density, h_over_dx=1.57,
+        time_step=0.002, sound_speed=None if state == "gas" else 12.0, initial_pressure=20.0, resolution=COUNT,
+        shifting_strength=0.6, background_pressure=0.3, **others,
+    )  # fmt: skip
+
+
+def problem(cavity: bool) -> Problem:
     """Jittered particles with random velocities, so that no term vanishes."""
-    spacing = WIDTH / COUNT
-    generator = np.random.default_rng(0)
-    ticks = (np.arange(COUNT) + 0.5) * spacing
-    lattice = np.stack(np.meshgrid(ticks, ticks - 0.5, indexing="ij"), axis=-1).reshape(-1, 2)
+    positions = jittered((COUNT, COUNT), 0.4, seed=0, dx=1 / COUNT) - np.array([0.0, 0.5])
     return Problem(
-        positions=lattice + 0.4 * spacing * (generator.random(lattice.shape) - 0.5),
-        velocities=generator.normal(size=lattice.shape),
-        box=Box((0.0, -0.5), (1.0, 0.5), ("periodic", "walls"), upper_velocity=(UPPER_VELOCITY, 0.0)),
-        body_force=tuple(FORCE),
-        spacing=spacing,
-        density=RHO0,
-        kinematic_viscosity=NU,
+        positions=positions,
+        velocities=np.random.default_rng(1).normal(size=positions.shape),
+        box=Box(
+            (0.0, -0.5), (1.0, 0.5), ("walls" if cavity else "periodic", "walls"),
+            lower_velocity=(0.0, 0.0) if cavity else (-0.3, 0.0), upper_velocity=(LID, 0.0),
+        ),
+        body_force=FORCE,
+        spacing=1 / COUNT,
+        density=1.3,
+        kinematic_viscosity=0.8,
         speed=1.0,
         length=0.5,
+    )  # fmt: skip
+
+
+def close(found: Array, expected: Array) -> None:
+    np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize(("names", "changes"), COMBINATIONS, ids=lambda x: "" if x == {} else str(x))
+def test_steps(names: str, changes: dict[str, Any]) -> None:
+    """One step of the midpoint rule; two where the rates or the drift of the step before matter."""
+    chosen, start = settings(names, changes), problem(changes.get("cavity", False))
+    flow, plain = Flow(start, chosen), Plain(start, chosen)
+    steps = 1 if chosen.integrator == "midpoint" and chosen.transport == "none" else 2
+    generator = np.random.default_rng(2)
+    state = {name: values.copy() for name, values in flow.state().items()}
+    for name in ("density", "energy"):
+        state[name][: flow.count] *= generator.uniform(0.95, 1.05, len(state[name][: flow.count]))
+    flow.restore(state)
+    many = np.broadcast_to(state["energy"][: flow.count], flow.count)
+    expected, last = plain.advance(
+        plain.start(start.positions, start.velocities, state["density"][: flow.count], many), steps
     )
+    flow.advance(steps)
+    count = flow.count
+    assert flow.steps == steps
+    assert flow.time == pytest.approx(steps * flow.time_step)
+    close(flow.velocities, expected.v[:count])
+    close(flow.positions, expected.x[:count])
+    close(flow.density, (last.density if chosen.density == "summation" else expected.rho)[:count])
+    close(flow.acceleration, last.v)
+    if chosen.equation_of_state == "ideal_gas":
+        close(flow.energy, expected.e[:count])
+    if chosen.transport != "none":
+        close(flow.drift, expected.w[:count])
+        assert np.abs(expected.w).max() > 1e-3
+    if chosen.integrator == "midpoint":
+        close(flow.pressure, last.pressure[:count])
+    assert np.abs(expected.v[:count] - start.velocities).max() > 0.01
 
 
-@pytest.mark.parametrize(
-    ("viscosity", "correction", "wall", "reduction", "state"),
-    [
-        ("morris", "none", "linear", "mean", "batchelor_tait"),
-        ("morris", "none", "mirror", "none", "batchelor_tait"),
-        ("violeau", "shepard", "mirror", "mean", "linear"),
-        ("cleary_4.24", "bonet_lok", "linear", "none", "batchelor_tait"),
-        ("two_pass", "none", "linear", "mean", "batchelor_tait"),
-        ("takeda", "shepard", "linear", "mean", "batchelor_tait"),
-    ],
-)
-def test_one_step(viscosity: str, correction: str, wall: str, reduction: str, state: str) -> None:
-    settings = FLOWS["poiseuille"].settings(
-        viscosity=viscosity, correction=correction, wall_velocity=wall, pressure_reduction=reduction,
-        equation_of_state=state, resolution=COUNT,
-    )  # fmt: skip
-    problem = channel()
-    flow = Flow(problem, settings)
-    plain = Plain(
-        viscosity, correction, wall, reduction == "mean", state == "batchelor_tait", flow.kernel.h, flow.sound_speed,
-        problem.spacing,
-    )  # fmt: skip
-    x, v, rho, p = plain.step(problem.positions, problem.velocities, flow.time_step)
-    flow.advance(1)
-    assert flow.steps == 1
-    assert flow.time == flow.time_step
-    np.testing.assert_allclose(flow.positions, x, rtol=1e-10, atol=1e-10)
-    np.testing.assert_allclose(flow.velocities, v, rtol=1e-10, atol=1e-10 * np.abs(v).max())
-    np.testing.assert_allclose(flow.density, rho, rtol=1e-10)
-    np.testing.assert_allclose(flow.pressure, p, rtol=1e-10, atol=1e-10 * np.abs(p).max())
-    assert np.abs(v - problem.velocities).max() > 0.01
+def test_every_pair_of_choices_occurs() -> None:
+    """Of viscosity, correction, equation of state and density."""
+    found = [settings(names, changes) for names, changes in COMBINATIONS]
+    for (one, of_one), (other, of_other) in combinations(CHOICES.items(), 2):
+        pairs = {(getattr(chosen, one), getattr(chosen, other)) for chosen in found}
+        assert set(product(of_one, of_other)) <= pairs

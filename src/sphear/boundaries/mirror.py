@@ -8,7 +8,7 @@ from sphear.boundaries.box import ON_WALL
 from sphear.boundaries.wall_velocity import node_along
 from sphear.engine.cache import compiled
 
-NODE_SPACING = 2.0  # of the nodes along a wall, in particle spacings
+NODE_SPACING = 4.0  # of the nodes along a wall, in particle spacings
 
 
 @compiled

@@ -17,6 +17,8 @@ import numpy as np
 from sphear.engine.cache import compiled
 from sphear.names import Registry
 
+PARABOLA = 3.0  # spacings from the wall within which particles decide on the parabola: three rows of them
+
 
 @compiled
 def node_along(place, along, lower, upper, nodes):  # type: ignore[no-untyped-def]
@@ -58,14 +60,14 @@ def linear(x, v, lower, upper, axis, along, velocities, spacing, a, b):  # type:
 
 @compiled
 def quadratic(x, v, lower, upper, axis, along, velocities, spacing, a, b):  # type: ignore[no-untyped-def]
-    """The parabola through the wall's velocity that fits the particles within two spacings of it best."""
+    """The parabola through the wall's velocity that fits the particles within three spacings of it best."""
     nodes, dimension = len(a), x.shape[1]
     powers = np.zeros((nodes, 2, 3))  # sums of y^2, y^3 and y^4
     a[:], b[:] = 0.0, 0.0
     for i in range(len(x)):
         for side in range(2):
             y = upper[axis] - x[i, axis] if side else x[i, axis] - lower[axis]
-            if y < 2.0 * spacing:
+            if y < PARABOLA * spacing:
                 node, share = node_along(x[i], along, lower, upper, nodes)
                 for n in range(2 if share > 0.0 else 1):
                     weight = share if n else 1.0 - share

@@ -9,27 +9,33 @@ import typer
 
 from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
 from sphear.cli.settings import changes
+from sphear.errors import Interrupted, SphearError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from sphear.cases.flow import FlowRun
+    from sphear.results import OutputFolder
+    from sphear.results.table import Table
 
 
 def run(
-    case: str = typer.Argument(..., metavar="CASE", help="poiseuille, couette or taylor-green."),
+    case: str = typer.Argument(..., metavar="CASE", help="poiseuille, couette, taylor-green or cavity."),
     texts: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="Any setting; may be repeated."),
     viscosity: str | None = typer.Option(None, "--viscosity", "-v", help="A viscous term."),
     correction: str | None = typer.Option(None, help="A consistency correction."),
     reynolds: float | None = typer.Option(None, help="The Reynolds number, as the case defines it."),
     resolution: int | None = typer.Option(None, help="Particles across the flow."),
     until: float | None = typer.Option(None, help="When to stop, in the time unit of the case."),
+    preset: str | None = typer.Option(None, help="Settings by name: paper or modern; other options go before them."),
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
     out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history and JSON to this folder."),
+    resume: bool = typer.Option(False, "--resume", help="Go on with the run that was interrupted in --out DIR."),
 ) -> None:
     """Compute a flow from its start to its end, or to its failure."""
     from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.schemes.presets import PRESETS
     from sphear.sweeps import flow_settings
 
     files = folder(out)
@@ -38,23 +44,46 @@ def run(
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
         "until": until, "force": force or None,
     }  # fmt: skip
-    settings = flow_settings(chosen, changes(texts) | {key: value for key, value in given.items() if value is not None})
+    if resume and files is None:
+        raise SphearError("--resume goes on with the run of a folder: name it by --out DIR")
+    together = dict(PRESETS[preset]) if preset is not None else {}
+    settings = flow_settings(
+        chosen, together | changes(texts) | {key: value for key, value in given.items() if value is not None}
+    )
     flow = FlowRun(chosen, settings)
+    keep = None if files is None else files.path / f"{chosen.name}-state.npz"
+    if resume and keep is not None:
+        flow.restore(keep)
     if not as_json:
         print_text(_start(flow))
+    if keep is not None:
+        keep.parent.mkdir(parents=True, exist_ok=True)
     with progress(f"{chosen.name}") as tell:
-        flow.run(tell)
+        try:
+            flow.run(tell, keep)
+        except KeyboardInterrupt:
+            raise Interrupted(_interrupted(flow, files)) from None
     table = _table(flow)
     result = flow.as_dict()
     if files is not None:
-        write(files, chosen.name, {**result, "history": flow.history}, [table], {chosen.name: lambda: _figure(flow)})
+        tables = [table, _particles(flow)]
+        write(files, chosen.name, {**result, "history": flow.history}, tables, {chosen.name: lambda: _figure(flow)})
+        if keep is not None:
+            keep.unlink(missing_ok=True)
     if as_json:
         print_json(result)
         return
     print_tables([table])
-    print_text(f"  End: {flow.end}.\n  {_speed(result['performance'])}")
+    print_text(f"  End: {flow.end}.\n{_summary(result['metrics'], table)}  {_speed(result['performance'])}")
     if files is not None:
         print_files(files)
+
+
+def _interrupted(run: FlowRun, files: OutputFolder | None) -> str:
+    where = f"interrupted at {run.case.time_name} = {run.flow.time / run.unit:.4g}"
+    if files is None:
+        return f"{where}; nothing is kept: with --out DIR the run could be gone on with"
+    return f"{where}; the state is in {files.path}, and the same command with --resume goes on from there"
 
 
 def _start(run: FlowRun) -> str:
@@ -70,18 +99,18 @@ def _start(run: FlowRun) -> str:
     ]
     if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
-    if settings.until is not None:
-        steps = settings.until * run.unit / flow.time_step
-        lines.append(f"  until {run.case.time_name} = {settings.until:g}: about {steps:.0f} steps")
+    steps = min(run.planned * run.unit / flow.time_step, settings.max_steps)
+    end = f"{run.case.time_name} = {steps * flow.time_step / run.unit:.4g}"
+    lines.append(f"  from step {flow.steps} to about step {steps:.0f}, {end}; Ctrl-C ends it before")
     return "\n".join(lines)
 
 
-def _table(run: FlowRun) -> Any:
+def _table(run: FlowRun) -> Table:
     from sphear.results.table import Column, Table
 
     rows = run.history[:: max(1, len(run.history) // 10)]
     rows = rows if rows[-1] is run.history[-1] else [*rows, run.history[-1]]
-    names = [name for name in run.history[0] if name not in ("time", "steps")]
+    names = [name for name in run.history[-1] if name not in ("time", "steps")]
     columns = (
         Column("time", run.case.time_name, ".4g"),
         Column("steps", "steps", ".0f"),
@@ -90,17 +119,40 @@ def _table(run: FlowRun) -> Any:
     return Table(f"{run.case.name}, {run.settings.viscosity}", columns, rows)
 
 
+def _particles(run: FlowRun) -> Table:
+    """The particles at the end, for other programs."""
+    from sphear.results.table import Column, Table
+
+    flow = run.flow
+    named = {
+        **{f"x{k}": flow.positions[:, k] for k in range(flow.positions.shape[1])},
+        **{f"u{k}": flow.velocities[:, k] for k in range(flow.positions.shape[1])},
+        "density": flow.density,
+        "pressure": flow.pressure,
+    }
+    rows = [dict(zip(named, values, strict=True)) for values in zip(*(x.tolist() for x in named.values()), strict=True)]
+    return Table(f"{run.case.name}, particles", tuple(Column(name, name, ".6g") for name in named), rows)
+
+
+def _summary(metrics: dict[str, Any], table: Table) -> str:
+    """What was found at the end, beside the columns of the table."""
+    shown = {column.key for column in table.columns} | {"time", "steps", "end", "failure_time"}
+    found = [f"{name.replace('_', ' ')} {value:.4g}" for name, value in metrics.items() if name not in shown]
+    return f"  {', '.join(found)}.\n" if found else ""
+
+
 def _figure(run: FlowRun) -> Figure:
     from sphear.results.figure import flow_panels
 
-    exact = run.case.exact(run.settings, run.flow.positions, run.flow.time)
     times = [row["time"] for row in run.history]
-    error = next(name for name in run.history[0] if name.endswith("error"))
+    name = run.case.headline
     return flow_panels(
-        run.flow.positions[:, 1], run.flow.velocities[:, 0], exact[:, 0], times, [row[error] for row in run.history],
-        (run.case.time_name, error.replace("_", " ")), f"{run.case.name}: {run.settings.viscosity},"
-        f" Re = {run.settings.reynolds:g}, {run.case.time_name} = {times[-1]:.3g}",
-    )  # fmt: skip
+        run.case.comparisons(run.settings, run.flow),
+        (times, [row[name] for row in run.history]),
+        (run.case.time_name, name.replace("_", " ")),
+        f"{run.case.name}: {run.settings.viscosity}, Re = {run.settings.reynolds:g},"
+        f" {run.case.time_name} = {times[-1]:.3g}",
+    )
 
 
 def _speed(performance: dict[str, Any]) -> str:

@@ -29,7 +29,7 @@ class Continuity(Part):
 
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
         """m_j (u_i - u_j) . grad W_ij."""
-        gradient = self.correction.gradient(self.kernel, getattr(own, self.prepared), d, r2)
+        gradient = self.correction.gradient(self.kernel, getattr(own, self.prepared, None), d, r2)
         return (other.mass * dot(subtract(own.velocity, other.velocity), gradient),), ()
 
 

@@ -36,7 +36,7 @@ class InternalEnergy(Part):
 
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
         """Half the work of the pair's pressure."""
-        gradient = self.correction.gradient(self.kernel, getattr(own, self.prepared), d, r2)
+        gradient = self.correction.gradient(self.kernel, getattr(own, self.prepared, None), d, r2)
         if self.form == "squares":
             stress = other.mass * (own.pressure_over_density2 + other.pressure_over_density2)
         else:

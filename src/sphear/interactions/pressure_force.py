@@ -53,7 +53,7 @@ class PressureForce(Part):
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
         """The pair's part of the force, and of what the mean pressure multiplies."""
         weight, pressure, constant = self._terms(own, other)
-        gradient = scale(weight, self.correction.gradient(self.kernel, getattr(own, self.prepared), d, r2))
+        gradient = scale(weight, self.correction.gradient(self.kernel, getattr(own, self.prepared, None), d, r2))
         force = scale(-pressure, gradient)
         if not self.reduced:
             return force, ()
@@ -70,7 +70,7 @@ class PressureForce(Part):
             # a constant that is subtracted everywhere is part of the mean
             mean = pressure / count - (0.0 if self.subtracted is None else self.subtracted)
             result = scale(mean, gradient)
-        at_zero = self.correction.gradient_at_zero(self.kernel, getattr(own, self.prepared), own.dimension)
+        at_zero = self.correction.gradient_at_zero(self.kernel, getattr(own, self.prepared, None), own.dimension)
         if at_zero is not None:
             weight, own_pressure, constant = self._terms(own, own)
             part = scale(-weight * (own_pressure - mean * constant), at_zero)

@@ -77,7 +77,7 @@ class Advection(Part):
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
         """The pair's part of the drift and of the velocity's gradient."""
         _, concentration = self.shifting.pair(own, other, d, r2)
-        gradient = scale(other.volume, self.correction.gradient(self.kernel, getattr(own, self.prepared), d, r2))
+        gradient = scale(other.volume, self.correction.gradient(self.kernel, getattr(own, self.prepared, None), d, r2))
         return tuple(0.0 for _ in d), (concentration, outer(subtract(other.velocity, own.velocity), gradient))
 
     def finish(self, own: Any, sums: Any) -> Vector:
@@ -101,7 +101,7 @@ class DensityAdvection(Part):
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
         """The pair's part of the drift and of the density's gradient."""
         _, concentration = self.shifting.pair(own, other, d, r2)
-        gradient = scale(other.volume, self.correction.gradient(self.kernel, getattr(own, self.prepared), d, r2))
+        gradient = scale(other.volume, self.correction.gradient(self.kernel, getattr(own, self.prepared, None), d, r2))
         return (0.0,), (concentration, scale(other.density - own.density, gradient))
 
     def finish(self, own: Any, sums: Any) -> Vector:

@@ -225,7 +225,10 @@ class Flow:
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
 
     def state(self) -> dict[str, Array]:
-        """All that a run needs to go on, by name."""
+        """All that a run needs to go on, by name; copies."""
+        return {name: values.copy() for name, values in self._arrays().items()}
+
+    def _arrays(self) -> dict[str, Array]:
         return {
             "clock": np.array([self.time, self.steps]),
             "x": self._x,
@@ -246,7 +249,7 @@ class Flow:
         Raises:
             SphearError: it is that of another flow.
         """
-        own = self.state()
+        own = self._arrays()
         for name, values in own.items():
             if name not in state or np.shape(state[name]) != values.shape:
                 raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")

@@ -238,6 +238,7 @@ def _wall_text(sweeps: Sweeps, formulas: Formulas, rows: tuple[str, str]) -> lis
     state = with_symbols(formulas.wall_state, lambda: trace.input(f"wall_state[{next(numbers)}]"))
     density = state.density(trace.input("pressure"), trace.input("energy"))
     code, _ = trace.code([density])
+    present = f"{density} if pressure > 0.0 else f.density[i]" if formulas.wall_state.uses_energy else density
     return [
         *lines,
         "for i in range(count, total):",
@@ -246,8 +247,8 @@ def _wall_text(sweeps: Sweeps, formulas: Formulas, rows: tuple[str, str]) -> lis
         "    pressure = f.pressure[i] = before_wall[i, dimension]",
         *(["    energy = f.energy[i]"] if formulas.wall_state.uses_energy else []),
         *(f"    {line}" for line in code),
-        # summed densities are those of the particles' places, as the fluid's are
-        *([f"    f.density[i] = {density}"] if formulas.density is None else []),
+        # summed densities are those of the particles' places, as the fluid's are; out of its reach a gas has no pressure
+        *([f"    f.density[i] = {present}"] if formulas.density is None else []),
     ]
 
 

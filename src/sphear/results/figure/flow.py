@@ -1,39 +1,48 @@
-"""A flow beside its reference: the profile at the end and the error over time."""
+"""A flow beside its reference: profiles at the end, and a metric over time."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from numpy.typing import ArrayLike
 
-from sphear.results.figure.style import FAINT, INK, grid, key, look, styled
+from sphear.results.figure.style import FAINT, INK, Curve, grid, key, look, styled
+
+if TYPE_CHECKING:
+    from sphear.cases.flow import Comparison
 
 
 @styled
 def flow_panels(
-    y: ArrayLike,
-    computed: ArrayLike,
-    exact: ArrayLike,
-    times: Sequence[float],
-    errors: Sequence[float],
-    labels: tuple[str, str],
-    title: str,
+    comparisons: Mapping[str, Comparison], history: Curve, labels: tuple[str, str], title: str
 ) -> Figure:
-    """Draw the velocity u of particles against their y with the exact one, and the error against time."""
-    figure, (profile, history) = grid(2, 2, (4.6, 3.6), title)
-    y, computed, exact = (np.asarray(a, float) for a in (y, computed, exact))
-    order = np.argsort(y)
+    """Draw each profile of a flow with its reference, and a metric against time.
+
+    Args:
+        comparisons: the profiles, by name.
+        history: times, and the metric at each.
+        labels: what the times and the metric are called.
+        title: of the figure.
+    """
+    figure, axes = grid(len(comparisons) + 1, 3, (4.0, 3.4), title)
     colour = look("morris").colour
-    profile.plot(y[order], exact[order], color=FAINT)
-    profile.plot(y, computed, "o", color=colour, markersize=4, markeredgewidth=0)
-    profile.set(xlabel="y", ylabel="u")
-    history.plot(times, errors, color=colour)
-    history.set(xlabel=labels[0], ylabel=labels[1], yscale="log")
-    key(
-        figure,
-        {"exact": Line2D([], [], color=FAINT), "computed": Line2D([], [], color=INK, marker="o", linestyle="none")},
-    )
+    referred = False
+    for ax, (name, profile) in zip(axes, comparisons.items(), strict=False):
+        if len(profile.reference_at):
+            order = np.argsort(profile.reference_at)
+            ax.plot(profile.reference_at[order], profile.reference[order], color=FAINT)
+            referred = True
+        ax.plot(profile.at, profile.values, "o", color=colour, markersize=3.5, markeredgewidth=0)
+        ax.set(xlabel=profile.along, ylabel=name)
+    times, values = (np.asarray(x, float) for x in history)
+    last = axes[len(comparisons)]
+    last.plot(times, values, color=colour)
+    last.set(xlabel=labels[0], ylabel=labels[1])
+    if labels[1].endswith("error") and (values[np.isfinite(values)] > 0).all():
+        last.set_yscale("log")
+    lines = {"computed": Line2D([], [], color=INK, marker="o", linestyle="none")}
+    key(figure, ({"reference": Line2D([], [], color=FAINT)} if referred else {}) | lines)
     return figure

@@ -1,0 +1,24 @@
+"""The runs behind figure 5: when a channel fails, for each viscous term, correction, equation of state and Re."""
+
+from __future__ import annotations
+
+from sphear.sweeps import Run, plan
+
+TERMS = ("takeda", "two_pass", "violeau", "cleary", "cleary_4.24", "cleary_4.96333", "morris")
+CORRECTIONS = ("none", "shepard", "bonet_lok")
+EQUATIONS = ("batchelor_tait", "ideal_gas")
+REYNOLDS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0)
+ERROR_REYNOLDS = 0.5  # of the plots of the error against time
+
+
+def runs(quick: bool = False) -> list[Run]:
+    """All runs; with `quick` two terms without correction at three Reynolds numbers."""
+    return plan(
+        "poiseuille",
+        {
+            "equation_of_state": EQUATIONS[:1] if quick else EQUATIONS,
+            "correction": CORRECTIONS[:1] if quick else CORRECTIONS,
+            "viscosity": ("violeau", "morris") if quick else TERMS,
+            "reynolds": (0.3, ERROR_REYNOLDS, 10.0) if quick else (*REYNOLDS, ERROR_REYNOLDS),
+        },
+    )
