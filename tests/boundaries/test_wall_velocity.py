@@ -83,12 +83,12 @@ def test_a_parabola_between_moving_walls_goes_on(rule: str) -> None:
 
 
 def test_quadratic_sees_each_wall_alone() -> None:
-    """Other parabolas within two spacings of each wall, and anything between them."""
+    """Other parabolas within three spacings of each wall, and anything between them."""
 
     def profile(y: Array) -> Array:
         from_lower, from_upper = y + 0.3, 0.7 - y
-        inner = np.where(from_upper < 0.21, from_upper - 5 * from_upper**2, 7.0)
-        return np.asarray(np.where(from_lower < 0.21, 2 * from_lower + from_lower**2, inner))
+        inner = np.where(from_upper < 0.31, from_upper - 5 * from_upper**2, 7.0)
+        return np.asarray(np.where(from_lower < 0.31, 2 * from_lower + from_lower**2, inner))
 
     np.testing.assert_allclose(continued("quadratic", profile), expected(profile), rtol=1e-9, atol=1e-9)
 
@@ -188,8 +188,8 @@ def test_the_global_parabola_bends_as_the_fluid_does_around_each_node() -> None:
     [
         (("periodic", "walls"), 1, -1, 1),
         (("walls", "periodic"), 0, -1, 1),
-        (("walls", "walls"), 1, 0, 7),  # two spacings apart, about: 2 + whole number of them in 1.0
-        (("walls", "walls"), 0, 1, 12),
+        (("walls", "walls"), 1, 0, 4),  # four spacings apart, about: 2 + whole number of them in 1.05
+        (("walls", "walls"), 0, 1, 7),
     ],
 )
 def test_only_a_wall_between_walls_has_nodes(sides: Any, axis: int, along: int, nodes: int) -> None:
@@ -229,10 +229,10 @@ def test_images_behind_one_wall_continue_the_velocity_along_it(sides: Any) -> No
         wall = {8: (2.0, 0.0), 4: (-0.5, 0.0)}.get(int(bits), (0.0, 0.0))
         depth = flow.at[e, axis] - 1.0 if side else -flow.at[e, axis]
         nodes = np.linspace(0.0, 1.0, max(2, len(flow.a[axis])))
-        many = np.broadcast_to(flow.a[axis][:, side, other], len(nodes)), np.broadcast_to(
-            flow.b[axis][:, side, other], len(nodes)
+        slope, bend = (
+            np.interp(flow.at[e, other], nodes, np.broadcast_to(fitted[axis][:, side, other], len(nodes)))
+            for fitted in (flow.a, flow.b)
         )
-        slope, bend = (np.interp(flow.at[e, other], nodes, values) for values in many)
         expected = np.empty(2)
         expected[other] = wall[other] - slope * depth + bend * depth**2
         expected[axis] = 2 * wall[axis] - flow.v[flow.source[e], axis]

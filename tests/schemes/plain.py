@@ -122,7 +122,7 @@ class Plain:
         """Fixed particles on the lattice of the fluid, thick enough that nobody sees their end."""
         box, settings = self.problem.box, self.settings
         if settings.walls == "mirror":
-            return Walls(*(np.empty((0, 2)) for _ in range(3)), np.empty(0))
+            return Walls(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), np.empty(0))
         passes = 2 if settings.viscosity == "two_pass" else 1
         # by the continuity equation walls have the thickness of the kernel, and densities that know of it
         layers = int(np.ceil(2 * self.h * passes / self.dx))
@@ -135,7 +135,7 @@ class Plain:
         ]
         found = []
         for place in product(*ticks):
-            sides = [(axis, place[axis] >= n) for axis, n in enumerate(counts) if not 0 <= place[axis] < n]
+            sides = [(axis, int(place[axis] >= n)) for axis, n in enumerate(counts) if not 0 <= place[axis] < n]
             if not sides:
                 continue
             velocity = min((self.wall_velocity(axis, side) for axis, side in sides), key=lambda u: np.abs(u).max())
@@ -146,7 +146,8 @@ class Plain:
                 normal[axis] = -1.0 if side else 1.0
                 depth = x[axis] - box.upper[axis] if side else box.lower[axis] - x[axis]
             found.append((x, velocity, normal, depth))
-        return Walls(*(np.array(column) for column in zip(*found, strict=True)))
+        places, velocities, normals, depths = (np.array(column) for column in zip(*found, strict=True))
+        return Walls(places, velocities, normals, depths)
 
     def continued(self, axis: int, side: int, s: State, at: Array, own: Array) -> Array:
         """The velocities of images of particles with the velocities `own`, at places behind one mirroring wall."""
@@ -160,7 +161,7 @@ class Plain:
             return behind
         # nodes along a wall that ends at others: each particle belongs to the two beside it
         length = box.upper[other] - box.lower[other]
-        nodes = 2 + int(length / (2 * self.dx)) if box.sides[other] == "walls" else 1
+        nodes = 2 + int(length / (4 * self.dx)) if box.sides[other] == "walls" else 1
         places = np.linspace(0, length, nodes) if nodes > 1 else np.zeros(1)
 
         def shares(x: Array) -> Array:
@@ -178,7 +179,7 @@ class Plain:
                 bend = _fitted((y * (width - y))[near, None], (u - far * y / width)[near], weight[near])
                 values[node] = -far * depth / width - bend[0] * depth * (width + depth)
             else:
-                near &= y < (1 if rule == "linear" else 2) * self.dx
+                near &= y < (1 if rule == "linear" else 3) * self.dx
                 basis = y[near, None] ** ([1] if rule == "linear" else [1, 2])
                 found = _fitted(basis, u[near], weight[near])
                 values[node] = sum(a * (-depth) ** (n + 1) for n, a in enumerate(found))
@@ -272,7 +273,7 @@ class Plain:
                 axis = int(np.argmax(np.abs(walls.normal[k])))
                 to = near - first
                 y = to @ walls.normal[k] - 0.5 * self.dx
-                weight = s_volume(self.mass, s.rho[who]) * self.w(np.sqrt((to**2).sum(axis=1)) / self.h)[0]
+                weight = self.mass / s.rho[who] * self.w(np.sqrt((to**2).sum(axis=1)) / self.h)[0]
                 inside = weight > 0
                 degrees = [1] if self.settings.wall_velocity == "linear" else [1, 2]
                 u = s.v[who, 1 - axis] - walls.v[k, 1 - axis]
@@ -486,13 +487,9 @@ class Plain:
         return replace(s, w=last.w), last
 
 
-def s_volume(mass: float, rho: Array) -> Array:
-    return np.asarray(mass / rho)
-
-
 def _fitted(basis: Array, values: Array, weight: Array) -> Array:
     """Weighted least squares."""
     root = np.sqrt(weight)[:, None]
     columns = values if values.ndim > 1 else values[:, None]
     found = np.linalg.lstsq(root * basis, root * columns)[0]
-    return found if values.ndim > 1 else found[:, 0]
+    return np.asarray(found if values.ndim > 1 else found[:, 0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -32,12 +33,12 @@ def channel(resolution: int = 10, **changes: Any) -> tuple[Problem, FlowSettings
     return FLOWS["poiseuille"].problem(settings), settings
 
 
-def box(velocity_scale: float = 1.0, viscosity: float = 0.1) -> Problem:
+def box(viscosity: float = 0.1) -> Problem:
     """Jittered particles with random velocities in a periodic box."""
     positions = jittered((12, 12), 0.24, seed=0, dx=1 / 12)
     return Problem(
         positions=positions,
-        velocities=velocity_scale * np.random.default_rng(1).normal(size=positions.shape),
+        velocities=np.asarray(np.random.default_rng(1).standard_normal(positions.shape)),
         box=Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic")),
         body_force=(0.0, 0.0),
         spacing=1 / 12,
@@ -108,7 +109,7 @@ def test_a_time_step_beyond_its_limit_is_refused_unless_forced() -> None:
 @pytest.mark.parametrize("walls", ["mirror", "fixed", "adami"])
 def test_a_resolution_too_coarse_for_the_walls_is_refused(walls: str) -> None:
     Flow(*channel(resolution=4, walls=walls))
-    with pytest.raises(SphearError, match=rf"the resolution of 3 is too coarse for walls={walls}: .* of 1\.04\d+ reach"):
+    with pytest.raises(SphearError, match=rf"the resolution of 3 is too coarse for walls={walls}: .* 1\.04\d+ reach"):
         Flow(*channel(resolution=3, walls=walls))
 
 
@@ -146,30 +147,30 @@ def failure(flow: Flow, steps: int = 1) -> tuple[float, int, Array, str]:
 @pytest.mark.parametrize("walls", ["mirror", "fixed"])
 def test_a_particle_through_a_wall_is_the_one_reported(walls: str) -> None:
     """A spacing beyond a mirror, or half of one into fixed particles; not the fastest one, which stays inside."""
-    problem, settings = channel(walls=walls, sound_speed=10.0, time_step=0.02, force=True)
+    problem, settings = channel(walls=walls, sound_speed=20.0, time_step=0.01, force=True)
+    problem = replace(problem, kinematic_viscosity=1e-6)
     outwards, fast = int(np.argmax(problem.positions[:, 1])), 4
-    problem.velocities[fast] = 9.5, 0.0
+    problem.velocities[fast] = 19.0, 0.0
     problem.positions[outwards, 1] = 0.5 - 1e-9
-    problem.velocities[outwards] = 0.0, 6.5 if walls == "mirror" else 4.0
+    problem.velocities[outwards] = 0.0, 15.0 if walls == "mirror" else 8.0
     flow = Flow(problem, settings)
     time, particle, place, cause = failure(flow)
-    assert (particle, flow.steps, time) == (outwards, 1, pytest.approx(0.02))
+    assert (particle, flow.steps, time) == (outwards, 1, 0.01)
     assert "wall" in cause
     np.testing.assert_allclose(place, flow.positions[outwards], rtol=1e-5)
     assert place[1] > 0.5 + (0.1 if walls == "mirror" else 0.05)
 
 
 def test_a_particle_through_a_mirror_changes_places_with_its_image() -> None:
-    """One step takes it there at half its speed, as an evaluation between sees no wall move."""
+    """Its velocity through the wall is reflected, that along it goes on."""
     problem, settings = channel(wall_velocity="mirror", sound_speed=10.0, time_step=1e-6)
-    problem = replace(problem, box=replace(problem.box, upper_velocity=(0.5, 0.0)))
     one = int(np.argmax(problem.positions[:, 1]))
     problem.positions[one, 1] = 0.5 - 1e-9
     problem.velocities[one] = 0.1, 2.0
     flow = Flow(problem, settings)
     flow.advance(1)
     assert flow.positions[one, 1] == pytest.approx(0.5 - 2e-6, abs=1e-7)
-    np.testing.assert_allclose(flow.velocities[one], (2 * 0.5 - 0.1, -2.0), atol=0.01)
+    np.testing.assert_allclose(flow.velocities[one], (0.1, -2.0), atol=0.01)
 
 
 def test_a_speed_above_that_of_sound() -> None:
@@ -211,7 +212,7 @@ def test_a_density_below_zero_is_found(integrator: Any) -> None:
     settings = conserving(
         density="continuity", sound_speed=1e4, time_step=0.5, force=True, integrator=integrator, correction="shepard"
     )
-    problem = replace(box(), velocities=6.0 * box().positions)
+    problem = replace(box(), velocities=np.asarray(6.0 * box().positions))
     problem.velocities[problem.positions[:, 0] > 0.5] = 0.0
     assert "density or an energy that is not positive" in failure(Flow(problem, settings))[3]
 
@@ -229,7 +230,7 @@ def test_linear_momentum_is_conserved_to_rounding(density: Any, form: str) -> No
 @pytest.mark.parametrize(("viscosity", "kept"), [("violeau", True), ("cleary", True), ("morris", False)])
 def test_forces_along_the_line_of_centres_keep_the_angular_momentum_of_a_drop(viscosity: str, kept: bool) -> None:
     """Kick-drift-kick keeps it to rounding, too: x + dt (v + dt a / 2) and half of both kicks."""
-    start = box(viscosity=1.0)
+    start = box()
     drop = replace(
         start,
         positions=start.positions + 2.0,
@@ -239,7 +240,8 @@ def test_forces_along_the_line_of_centres_keep_the_angular_momentum_of_a_drop(vi
     flow = Flow(drop, conserving(viscosity=viscosity, integrator="kick_drift_kick", sound_speed=15.0, force=True))
 
     def angular_momentum() -> Array:
-        return np.asarray(np.cross(flow.positions - 2.5, flow.velocities))
+        (x, y), (u, v) = flow.positions.T - 2.5, flow.velocities.T
+        return np.asarray(x * v - y * u)
 
     before = angular_momentum()
     flow.advance(20)
@@ -267,10 +269,10 @@ def test_a_gas_without_viscosity_keeps_its_energy_to_the_order_of_the_step(densi
 
     before = energy(Flow(problem, settings))
     kinetic = (problem.velocities**2).sum(axis=1).mean() / 2
-    drifts = [abs(energy(advanced(problem, settings, 0.16, steps)) - before) / kinetic for steps in (32, 64, 128)]
+    drifts = [abs(energy(advanced(problem, settings, 0.32, steps)) - before) / kinetic for steps in (64, 128, 256)]
     assert drifts[0] < 0.01
-    for coarse, fine in zip(drifts, drifts[1:], strict=False):
-        assert 3.5 < coarse / fine < 9
+    for coarse, fine in pairwise(drifts):
+        assert 4 < coarse / fine < 8
 
 
 @pytest.mark.parametrize("integrator", ["midpoint", "kick_drift_kick"])

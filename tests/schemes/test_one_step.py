@@ -62,11 +62,12 @@ COMBINATIONS: list[tuple[str, dict[str, Any]]] = [
 def settings(names: str, changes: dict[str, Any]) -> FlowSettings:
     viscosity, correction, state, density = names.split()
     others = {name: value for name, value in changes.items() if name != "cavity"}
-    return FlowSettings(
-        viscosity=viscosity, correction=correction, equation_of_state=STATES[state], density=density, h_over_dx=1.57,
-        time_step=0.002, sound_speed=None if state == "gas" else 12.0, initial_pressure=20.0, resolution=COUNT,
-        shifting_strength=0.6, background_pressure=0.3, **others,
-    )  # fmt: skip
+    chosen = {
+        "viscosity": viscosity, "correction": correction, "equation_of_state": STATES[state], "density": density,
+        "h_over_dx": 1.57, "time_step": 0.002, "sound_speed": None if state == "gas" else 12.0,
+        "initial_pressure": 20.0, "resolution": COUNT, "shifting_strength": 0.6, "background_pressure": 0.3,
+    }  # fmt: skip
+    return FlowSettings.model_validate(chosen | others)
 
 
 def problem(cavity: bool) -> Problem:

@@ -43,9 +43,7 @@ def wall_particles(box: Box, spacing: float, layers: int) -> WallParticles:
     dimension = len(box.lower)
     _, _, _, wall_velocities = box.arrays()
     cells = [max(1, round((high - low) / spacing)) for low, high in zip(box.lower, box.upper, strict=True)]
-    ranges = [
-        range(-layers, n + layers) if axis in box.wall_axes else range(n) for axis, n in enumerate(cells)
-    ]
+    ranges = [range(-layers, n + layers) if axis in box.wall_axes else range(n) for axis, n in enumerate(cells)]
     number: dict[tuple[int, ...], int] = {}
     rows: list[tuple[list[float], Array, Array, float]] = []
     firsts: list[tuple[int, ...]] = []
@@ -58,7 +56,7 @@ def wall_particles(box: Box, spacing: float, layers: int) -> WallParticles:
         speeds = [wall_velocities[axis, side] for axis, side in sides]
         normal, depth, first = np.zeros(dimension), 0.0, list(index)
         if len(sides) == 1:
-            (axis, side), = sides
+            ((axis, side),) = sides
             normal[axis] = -1.0 if side else 1.0
             layer = index[axis] - cells[axis] if side else -1 - index[axis]
             depth = (layer + 0.5) * spacing

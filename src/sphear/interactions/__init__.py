@@ -1,6 +1,6 @@
 """Interactions: what is summed over the neighbours of each particle."""
 
-from sphear.interactions.continuity import Continuity, DensityDiffusion
+from sphear.interactions.continuity import Continuity, DensityDiffusion, DensityGradient
 from sphear.interactions.density import SummationDensity
 from sphear.interactions.gradient import Divergence, Gradient
 from sphear.interactions.internal_energy import InternalEnergy
@@ -24,6 +24,7 @@ __all__ = [
     "Continuity",
     "DensityAdvection",
     "DensityDiffusion",
+    "DensityGradient",
     "Divergence",
     "FluidBeforeWall",
     "Gradient",

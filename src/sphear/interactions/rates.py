@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from sphear.algebra import Scalar, Vector, add
 
-ROLES = ("velocity", "density", "energy", "drift")
+ROLES = ("velocity", "density", "energy", "drift", "density_gradient")
 
 
 @dataclass(frozen=True)

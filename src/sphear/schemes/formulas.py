@@ -15,6 +15,7 @@ from sphear.interactions import (
     Continuity,
     DensityAdvection,
     DensityDiffusion,
+    DensityGradient,
     FluidBeforeWall,
     InternalEnergy,
     Part,
@@ -133,9 +134,12 @@ def _parts(
         )
     ]
     if continuity:
-        parts.append(Continuity(kernel, correction, prepared))
+        parts.append(Continuity(kernel, correction, prepared, "slip_velocity" if settings.slip else "velocity"))
     if settings.density_diffusion > 0:
-        parts.append(DensityDiffusion(kernel, settings.density_diffusion, sound_speed))
+        gradients = settings.diffusion_form == "antuono"
+        parts.append(DensityDiffusion(kernel, settings.density_diffusion, sound_speed, gradients))
+        if gradients:
+            parts.append(DensityGradient(kernel, correction, prepared))
     if gas:
         parts.append(InternalEnergy(kernel, correction, settings.form, prepared))
     if settings.transport == "shifting":

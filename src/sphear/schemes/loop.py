@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from itertools import count
 from types import ModuleType
-from typing import Any
 
 from sphear.engine.cache import generated_module
 from sphear.engine.flags import options_text
@@ -166,7 +165,9 @@ def loop_module(
     for number, stage in enumerate(formulas.stages):
         end = number == len(formulas.stages) - 1
         rows, size = (last, "total") if end else (every_row, "len(entry)")
-        stages += sweeps.text(stage, f"stage{number}", rows, own=own, prepared="prepared" if own else "nothing", size=size)
+        stages += sweeps.text(
+            stage, f"stage{number}", rows, own=own, prepared="prepared" if own else "nothing", size=size
+        )
         stages += [f"before = stage{number}"]
     text = _RATES.format(
         title=f"flow: {', '.join(type(part).__name__ for part in formulas.rates.parts)}",
@@ -247,12 +248,14 @@ def _wall_text(sweeps: Sweeps, formulas: Formulas, rows: tuple[str, str]) -> lis
         "    pressure = f.pressure[i] = before_wall[i, dimension]",
         *(["    energy = f.energy[i]"] if formulas.wall_state.uses_energy else []),
         *(f"    {line}" for line in code),
-        # summed densities are those of the particles' places, as the fluid's are; out of its reach a gas has no pressure
+        # summed densities are those of the particles' places, as the fluid's are; out of its reach gas has no pressure
         *([f"    f.density[i] = {present}"] if formulas.density is None else []),
     ]
 
 
-def _preparations_text(sweeps: Sweeps, formulas: Formulas, rows: tuple[str, str]) -> tuple[list[str], tuple[Shape, ...]]:
+def _preparations_text(
+    sweeps: Sweeps, formulas: Formulas, rows: tuple[str, str]
+) -> tuple[list[str], tuple[Shape, ...]]:
     """The text of the preparations, with their tests, and the form of what is prepared."""
     if not formulas.preparations:
         return [], ()
@@ -289,9 +292,11 @@ def _result_text(formulas: Formulas, dimension: int, integrated_walls: bool) -> 
     column = dimension
     last = f"stage{len(formulas.stages) - 1}"
     for role in formulas.rates.roles[1:]:
-        if role == "drift":
-            lines += ["for i in range(count):", "    for k in range(dimension):"]
-            lines += [f"        f.drift[i, k] = {last}[i, {column} + k]"]
+        if role in ("drift", "density_gradient"):
+            rows = "total" if role == "density_gradient" and integrated_walls else "count"
+            lines += [f"for i in range({rows}):", "    for k in range(dimension):"]
+            lines += [f"        f.{role}[i, k] = {last}[i, {column} + k]"]
+            column += dimension
         else:
             rows = "total" if role == "density" and integrated_walls else "count"
             lines += [f"for i in range({rows}):", f"    change.{role}[i] = {last}[i, {column}]"]

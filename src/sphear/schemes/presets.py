@@ -22,9 +22,11 @@ PRESETS.add(
         "kernel": "wendland_c2",
         "density": "continuity",
         "density_diffusion": 0.1,
+        "diffusion_form": "antuono",
         "pressure_reduction": "none",
         "transport": "shifting",
         "walls": "mirror",
+        "slip": True,
         "wall_velocity": "quadratic",
     },
 )

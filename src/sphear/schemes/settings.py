@@ -27,8 +27,11 @@ class FlowSettings(BaseModel):
         pressure_reduction: "mean" subtracts the mean pressure of the neighbours (eq. 20), "hydrostatic" the pressure
             at rest (Morris et al. 1997), "none" nothing.
         density_diffusion: delta of Molteni & Colagrossi (2009), 0.1 there; 0 leaves it out.
+        diffusion_form: "molteni", or "antuono" (2010), which takes out what the density's gradient explains.
         walls: "mirror" particles, "fixed" ones with the fluid's velocity continued into them (section 6.2), or "adami".
         wall_velocity: how the velocity is continued into mirror or fixed particles.
+        slip: mirror particles have the fluid's own velocity along the wall in the continuity equation, instead of the
+            one that is continued for the viscous term.
         wall_particles: particles with the wall's velocity on mirroring walls, one for each particle within a spacing.
         integrator: "midpoint", second-order Runge-Kutta, or "kick_drift_kick", with one evaluation a step.
         transport: "none", "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al. 2013).
@@ -62,8 +65,10 @@ class FlowSettings(BaseModel):
     momentum: Literal["squares", "products"] | None = None
     pressure_reduction: Literal["mean", "hydrostatic", "none"] = "mean"
     density_diffusion: float = Field(default=0.0, ge=0, allow_inf_nan=False)
+    diffusion_form: Literal["molteni", "antuono"] = "molteni"
     walls: Literal["mirror", "fixed", "adami"] = "mirror"
     wall_velocity: str = "linear"
+    slip: bool = False
     wall_particles: bool = False
     integrator: Literal["midpoint", "kick_drift_kick"] = "midpoint"
     transport: Literal["none", "shifting", "transport_velocity"] = "none"
@@ -94,6 +99,12 @@ class FlowSettings(BaseModel):
             f" would not conserve energy: {self.density} goes with {self.form}": self.momentum not in (None, self.form),
             "density_diffusion smooths the continuity equation and density=summation has none: take density=continuity"
             " or no diffusion": self.density_diffusion > 0 and self.density == "summation",
+            "diffusion_form=antuono needs density gradients in the walls, which walls=adami has not: take"
+            " walls=mirror or diffusion_form=molteni": (
+                self.diffusion_form == "antuono" and self.walls == "adami" and self.density_diffusion > 0
+            ),
+            f"slip is about the continuity equation beside mirrors, and not for density={self.density} with"
+            f" walls={self.walls}": self.slip and (self.density == "summation" or self.walls != "mirror"),
             "transport=transport_velocity is made for density=summation, not for density=continuity": (
                 self.transport == "transport_velocity" and self.density == "continuity"
             ),

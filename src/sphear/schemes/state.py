@@ -16,6 +16,7 @@ class Fields(NamedTuple):
     density, pressure: (N + M,).
     energy: (N + M,), of a unit of mass; (1,) where the equation of state has none.
     drift: (N + M, d), of the particles against the fluid; (1, d) where nothing moves them.
+    density_gradient: (N + M, d), of the last evaluation; (1, d) where nothing needs it.
     normal, depth, wall_velocity: (N + M, d), (N + M,) and (N + M, d), of wall particles; (1, ...) where there are none.
     nearest: (M,), the particle of the wall's first layer before each.
     """
@@ -26,6 +27,7 @@ class Fields(NamedTuple):
     pressure: Array
     energy: Array
     drift: Array
+    density_gradient: Array
     normal: Array
     depth: Array
     wall_velocity: Array

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
 from sphear.engine.program import sweep_text
@@ -20,18 +18,22 @@ COLUMNS = {
     "depth": "f.depth[i]",
     "fluid": "1.0 if i < count else 0.0",
     "velocity": "v[i, {k}]",
+    "slip_velocity": "(-u[i, {k}] if (wall[e] >> (2 * {k})) & 3 else u[i, {k}])",
     "normal": "f.normal[i, {k}]",
     "wall_velocity": "f.wall_velocity[i, {k}]",
     "body_force": "force[{k}]",
     # an image has it reflected across its walls, and one on a wall stays there
-    "drift": "(0.0 if wall[e] & 64 else (-f.drift[i, {k}] if (wall[e] >> (2 * {k})) & 3 else f.drift[i, {k}]))",
+    **{
+        name: f"(0.0 if wall[e] & 64 else (-f.{name}[i, {{k}}] if (wall[e] >> (2 * {{k}})) & 3 else f.{name}[i, {{k}}]))"
+        for name in ("drift", "density_gradient")
+    },
     "before": "before[e, {k}]",
 }
-VECTORS = ("velocity", "normal", "wall_velocity", "body_force", "drift")
+VECTORS = ("velocity", "slip_velocity", "normal", "wall_velocity", "body_force", "drift", "density_gradient")
 
 _PACK = '''
 @njit({options}{parallel})
-def pack{number}(parts, order, source, wall, positions, v, f, count, force, before, records, private):
+def pack{number}(parts, order, source, wall, positions, v, u, f, count, force, before, records, private):
     """The records of sweep {number}, in the order of the cells."""
     entries = len(order)
     for part in prange(parts):
@@ -116,7 +118,8 @@ class Sweeps:
         return [
             f"records{number} = np.empty((entries, {-(-len(columns) // 4) * 4}))",
             f"private{number} = np.empty((entries, {len(private)}))",
-            f"pack{number}(parts, order, source, wall, positions, {self.velocity}, f, count,"
+            f"pack{number}(parts, order, source, wall, positions, {self.velocity}, v, f,"
+            " count,"
             f" force, before, records{number}, private{number})",
             f"{result} = np.empty(({size}, {len(formula.finish_outputs)}))",
             f"rows{number}(constants[{number}], far, records{number}, private{number}, {prepared}, {result}, {target},"

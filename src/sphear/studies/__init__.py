@@ -9,6 +9,7 @@ from importlib import import_module
 
 from sphear.errors import SphearError
 from sphear.names import unknown
+from sphear.studies.kept import kept
 from sphear.studies.result import Progress, StudyResult, no_progress
 
 PAPERS = {
@@ -30,7 +31,17 @@ ITEMS: dict[str, dict[str, str]] = {
         "figure-5": "convergence on jittered particles",
         "figure-6": "time against the number of particles",
     },
-    "basa2009": {"figure-1": "second derivatives of the cubic spline in 2-D"},
+    "basa2009": {
+        "figure-1": "second derivatives of the cubic spline in 2-D",
+        "figure-2": "compressible channel with and without pressure reduction",
+        "figure-4": "wall treatments a short time after the start",
+        "figure-5": "when channels fail, and their errors",
+        "figure-7": "kinetic energy and drift of a failing channel",
+        "figure-8": "velocities in the lid-driven cavity",
+        "figure-9": "kinetic energy in the lid-driven cavity",
+        "figure-10": "profiles of the lid-driven cavity",
+        "findings": "each finding of the paper, confirmed or contradicted",
+    },
 }
 
 
@@ -44,18 +55,33 @@ def items(paper: str, wanted: list[str]) -> list[str]:
     return list(dict.fromkeys(wanted)) or list(ITEMS[paper])
 
 
-def reproduce(paper: str, item: str, *, quick: bool = False, progress: Progress = no_progress) -> StudyResult:
-    """Compute one table or figure again.
+def reproduce(
+    paper: str,
+    item: str,
+    *,
+    quick: bool = False,
+    rerun: bool = False,
+    workers: int = 1,
+    progress: Progress = no_progress,
+) -> StudyResult:
+    """Compute one table or figure again; of a long one take the numbers that are kept with the package.
 
     Args:
         paper: a key of `ITEMS`.
         item: such as "table-1".
         quick: fewer seeds and sizes, where the item is long.
+        rerun: compute long ones too.
+        workers: processes for the runs of long ones.
         progress: told what is being computed.
     """
     (item,) = items(paper, [item])
     module = import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}")
-    result = module.run(quick=quick, progress=progress)
+    if hasattr(module, "compute"):
+        computed = quick or rerun
+        data = module.compute(quick=quick, workers=workers, progress=progress) if computed else kept(paper, item)
+        result = module.present(data)
+    else:
+        result = module.run(quick=quick, progress=progress)
     if not isinstance(result, StudyResult):
         raise SphearError(f"the study {paper} {item} gave no result")
     return result

@@ -63,9 +63,7 @@ class Run:
         Settings at their general default are left out of it, so that a new setting leaves old results valid.
         """
         usual = type(self.settings)().model_dump(mode="json")
-        matter = {
-            name: value for name, value in self.given.items() if name not in IMMATERIAL and value != usual[name]
-        }
+        matter = {name: value for name, value in self.given.items() if name not in IMMATERIAL and value != usual[name]}
         digest = hashlib.sha256(json.dumps([self.case, matter], sort_keys=True).encode()).hexdigest()[:16]
         chosen = self.settings
         readable = f"{self.case}-{chosen.viscosity}-{chosen.correction}-re{chosen.reynolds:g}-n{chosen.resolution}"

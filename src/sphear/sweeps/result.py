@@ -26,6 +26,7 @@ class SweepResult:
             no result).
         performance: particles, steps and speed.
         history: at most 100 rows, the first and the last among them.
+        profiles: along lines, at the end, where the case keeps any.
     """
 
     case: str
@@ -34,6 +35,7 @@ class SweepResult:
     end: str
     performance: dict[str, Any] = field(default_factory=dict)
     history: list[dict[str, Any]] = field(default_factory=list)
+    profiles: dict[str, list[float]] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:
@@ -53,7 +55,7 @@ class SweepResult:
 def of_record(record: Any) -> SweepResult | None:
     """The result that a record holds, as it was stored or came from a worker; None if it is not whole."""
     kinds = {"case": str, "settings": dict, "metrics": dict, "end": str, "performance": dict, "history": list}
-    if not isinstance(record, dict) or set(record) != set(kinds):
+    if not isinstance(record, dict) or set(record) - {"profiles"} != set(kinds):
         return None
     if not all(isinstance(record[key], kind) for key, kind in kinds.items()):
         return None

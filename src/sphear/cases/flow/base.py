@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sphear.schemes.settings import FlowSettings
 from sphear.schemes.flow import Flow
 from sphear.schemes.problem import Problem
+from sphear.schemes.settings import FlowSettings
 
 Array = np.ndarray[Any, Any]
 
@@ -44,6 +44,7 @@ class FlowCase:
         metrics: errors and the like at one moment, by name.
         ended: why a run is over at one moment, from its metrics: "steady", "failed: ..." or None.
         summary: what is found at the end, beside the metrics.
+        profiles: numbers along lines, at the end, that are kept with the results of a sweep.
         headline: the metric that is drawn against time.
         horizon: when a run without `until` is expected to end, in the time unit; None if it has no end of its own.
     """
@@ -57,6 +58,7 @@ class FlowCase:
     metrics: Callable[[FlowSettings, Flow], dict[str, float]]
     ended: Callable[[FlowSettings, Flow, dict[str, float]], str | None]
     summary: Callable[[FlowSettings, Flow], dict[str, float]] = lambda settings, flow: {}
+    profiles: Callable[[FlowSettings, Flow], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"
     horizon: float | None = None
 

@@ -10,9 +10,9 @@ from sphear.boundaries import Box
 from sphear.cases.flow.base import Comparison, FlowCase
 from sphear.cases.flow.initial import particles_between
 from sphear.references.couette import PlaneCouette
-from sphear.schemes.settings import FlowSettings
 from sphear.schemes.flow import Flow
 from sphear.schemes.problem import Problem
+from sphear.schemes.settings import FlowSettings
 
 Array = np.ndarray[Any, Any]
 

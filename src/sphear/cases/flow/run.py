@@ -166,6 +166,7 @@ class FlowRun:
             "case": self.case.name,
             "settings": {**settings.model_dump(mode="json"), **resolved},
             "metrics": {**last, **summary, "end": self.end, "failure_time": last["time"] if failed else None},
+            "profiles": {} if failed else self.case.profiles(settings, flow),
             "performance": {
                 "particles": len(flow.positions),
                 "steps": flow.steps,

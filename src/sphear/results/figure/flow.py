@@ -16,9 +16,7 @@ if TYPE_CHECKING:
 
 
 @styled
-def flow_panels(
-    comparisons: Mapping[str, Comparison], history: Curve, labels: tuple[str, str], title: str
-) -> Figure:
+def flow_panels(comparisons: Mapping[str, Comparison], history: Curve, labels: tuple[str, str], title: str) -> Figure:
     """Draw each profile of a flow with its reference, and a metric against time.
 
     Args:

@@ -1,0 +1,175 @@
+"""Figure 5: when a channel fails, for each viscous term, correction and equation of state, and its error before."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import product
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+from sphear.cases.flow import FLOWS
+from sphear.cases.flow.poiseuille import HALF_WIDTH, threshold
+from sphear.results.table import Column, Table
+from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS, TERMS, runs
+from sphear.studies.kept import swept
+from sphear.studies.result import Agreement, Progress, StudyResult
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from sphear.sweeps import SweepResult
+
+CLAIM = (
+    "model A fails without correction and is cured by level 0; B is the least robust but accurate; D and E are the best"
+    " in both, C is as robust and less accurate; corrections help them little"
+)
+LABELS = {"batchelor_tait": "weakly compressible", "ideal_gas": "compressible"}
+LEVELS = {"none": "no correction", "shepard": "level 0", "bonet_lok": "level 1"}
+SWEPT = ("equation_of_state", "correction", "viscosity", "reynolds")
+
+Row = dict[str, Any]
+
+
+def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
+    """Every run, in what is shown of it."""
+    return entries(swept(runs(quick), "basa2009", workers, progress))
+
+
+def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
+    """What is kept: how each run ended, and the errors over time of those whose error is drawn."""
+    found = []
+    for result in results:
+        row: Row = {key: result.settings[key] for key in SWEPT}
+        row |= {"end": result.end, "time": _end(result), "steps": result.metrics["steps"]}
+        row["rms_error"] = result.metrics["rms_error"]
+        if row["reynolds"] == ERROR_REYNOLDS:
+            row["history"] = [[_short(step["time"]), _short(step["rms_error"])] for step in result.history]
+        found.append(row)
+    derived = ("sound_speed", "time_step", "kinematic_viscosity", "until", "force", "threads")
+    common = {key: value for key, value in results[0].settings.items() if key not in (*SWEPT, *derived)}
+    return {"settings": common, "runs": found}
+
+
+def _end(result: SweepResult) -> float:
+    """t* at which a run ended; of one that failed, of the first of its kept outputs beyond the threshold."""
+    settings = FLOWS["poiseuille"].settings(reynolds=result.settings["reynolds"])
+    unit, spacing = FLOWS["poiseuille"].time_unit(settings), 2 * HALF_WIDTH / result.settings["resolution"]
+    if result.failed:
+        for row in result.history:
+            if row["rms_error"] is None or row["rms_error"] >= threshold(row["time"] * unit, spacing):
+                return float(f"{row['time']:.4g}")
+    return float(f"{result.metrics['time']:.4g}")
+
+
+def _short(value: float | None) -> float | None:
+    return None if value is None else float(f"{value:.4g}")
+
+
+def outcome(row: Row) -> str:
+    """ "steady", "failed" or "steps", of a run."""
+    return str(row["end"]).partition(":")[0]
+
+
+def select(rows: Sequence[Row], **wanted: Any) -> list[Row]:
+    """The rows with these values."""
+    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
+
+
+def highest_steady(rows: Sequence[Row]) -> float:
+    """The Reynolds number up to which every run reaches the steady state; 0 if the first fails."""
+    highest = 0.0
+    for row in sorted(rows, key=lambda row: float(row["reynolds"])):
+        if outcome(row) != "steady":
+            break
+        highest = row["reynolds"]
+    return highest
+
+
+def present(data: dict[str, Any]) -> StudyResult:
+    """Tables of the times of failure, plots of both columns of the figure, and what they say."""
+    rows: list[Row] = data["runs"]
+    tables = [_table(rows, equation, correction) for equation, correction in _pairs(rows)]
+    said, agrees = _finding(rows)
+    return StudyResult(CLAIM, said, agrees, rows, tables, {"figure-5": lambda: _figure(rows)})
+
+
+def _pairs(rows: Sequence[Row]) -> list[tuple[str, str]]:
+    return [
+        pair for pair in product(EQUATIONS, CORRECTIONS) if select(rows, equation_of_state=pair[0], correction=pair[1])
+    ]
+
+
+def _terms(rows: Sequence[Row]) -> list[str]:
+    return [term for term in TERMS if select(rows, viscosity=term)]
+
+
+def _table(rows: Sequence[Row], equation: str, correction: str) -> Table:
+    """t* of failure, a row a Reynolds number; "steady" and "steps" (500,000 of them) where there was none."""
+    mine = select(rows, equation_of_state=equation, correction=correction)
+    lines = []
+    for reynolds in sorted({row["reynolds"] for row in mine}):
+        line: Row = {"reynolds": f"{reynolds:g}"}
+        for row in select(mine, reynolds=reynolds):
+            stood = outcome(row)
+            line[row["viscosity"]] = f"{row['time']:.3g}" if stood == "failed" else f"{stood} {row['time']:.3g}"
+        lines.append(line)
+    columns = (Column("reynolds", "Re"), *(Column(term, term) for term in _terms(mine)))
+    return Table(f"t* at which the channel fails: {LABELS[equation]}, {LEVELS[correction]}", columns, lines)
+
+
+def error_at(row: Row, time: float) -> float:
+    """The RMS error at a t* of a run whose history is kept; infinite after it has failed."""
+    known = [(t, e) for t, e in row.get("history", []) if e is not None]
+    if not known or (outcome(row) == "failed" and row["time"] < time):
+        return math.inf
+    return float(min(known, key=lambda pair: abs(pair[0] - time))[1])
+
+
+def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
+    def robust(**wanted: Any) -> float:
+        return highest_steady(select(rows, **wanted))
+
+    at = [row for row in rows if row["reynolds"] == ERROR_REYNOLDS]
+
+    def error(term: str) -> float:
+        return median(error_at(row, 5.0) for row in select(at, viscosity=term))
+
+    terms = _terms(rows)
+    plain = {term: robust(equation_of_state="batchelor_tait", correction="none", viscosity=term) for term in terms}
+    zeroth = {term: robust(equation_of_state="batchelor_tait", correction="shepard", viscosity=term) for term in terms}
+    reach = ", ".join(f"{term} {plain[term]:g} ({zeroth[term]:g})" for term in terms)
+    errors = ", ".join(f"{term} {error(term):.2%}" for term in terms)
+    said = (
+        f"weakly compressible, the steady state is reached at every Re tried up to, without correction (with level 0):"
+        f" {reach}; median RMS errors at Re = 0.5, t* = 5, of all corrections and equations of state: {errors}"
+    )
+    if "takeda" not in plain:
+        return said, "partly"
+    cured = plain["takeda"] < min(plain["morris"], zeroth["takeda"])
+    best = error("violeau") > max(error("morris"), error("cleary_4.24"))
+    least = plain["two_pass"] <= min(plain["violeau"], plain["morris"], plain["cleary_4.24"])
+    held = [cured, best, least]
+    return said, "yes" if all(held) else "partly" if any(held) else "no"
+
+
+def _figure(rows: Sequence[Row]) -> Figure:
+    from sphear.results.figure.robustness import Panel, robustness_panels
+
+    panels = []
+    for equation, correction in _pairs(rows):
+        mine = select(rows, equation_of_state=equation, correction=correction)
+        panels.append(
+            Panel(
+                f"{LABELS[equation]}, {LEVELS[correction]}",
+                {
+                    term: [(row["reynolds"], row["time"], outcome(row)) for row in select(mine, viscosity=term)]
+                    for term in _terms(mine)
+                },
+                {
+                    term: [(t, e) for row in select(mine, viscosity=term) for t, e in row.get("history", []) if e]
+                    for term in _terms(mine)
+                },
+            )
+        )
+    return robustness_panels(panels, "Poiseuille channel, 20 x 20 particles (Basa, Quinlan & Lastiwka 2009, figure 5)")

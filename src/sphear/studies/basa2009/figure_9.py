@@ -1,0 +1,91 @@
+"""Figure 9: kinetic energy in the lid-driven cavity against time."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+from sphear.references.cavity import MAC_TIMES, mac, openfoam
+from sphear.results.table import Column, Table
+from sphear.studies.basa2009.cavity_results import (
+    LEVELS,
+    Row,
+    compute,
+    corrections,
+    failed,
+    how,
+    reynolds_numbers,
+    select,
+)
+from sphear.studies.result import Agreement, StudyResult
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["compute", "present"]
+
+CLAIM = (
+    "all terms under-predict the kinetic energy at Re = 1000; D is the best by a small margin, C nearly as good; B fails"
+    " at Re = 1000 when corrected; E shows spikes, above all uncorrected; A is stable with corrections only"
+)
+
+
+def present(data: dict[str, Any]) -> StudyResult:
+    """The energies at the end beside the reference, and over time."""
+    rows: list[Row] = data["runs"]
+    said, agrees = _finding(rows)
+    return StudyResult(CLAIM, said, agrees, rows, [_table(rows)], {"figure-9": lambda: _figure(rows)})
+
+
+def _table(rows: list[Row]) -> Table:
+    lines = [
+        {
+            "reynolds": row["reynolds"], "correction": LEVELS[row["correction"]], "viscosity": row["viscosity"],
+            "end": how(row), "kinetic_energy": row["kinetic_energy"],
+            "error": None if failed(row) else row.get("kinetic_energy_error"),
+        }
+        for row in rows
+    ]  # fmt: skip
+    columns = (
+        Column("reynolds", "Re", "g"),
+        Column("correction", "correction"),
+        Column("viscosity", "term"),
+        Column("end", "end"),
+        Column("kinetic_energy", "kinetic energy", ".4g"),
+        Column("error", "over the reference - 1", "+.1%"),
+    )
+    return Table("Kinetic energy in the cavity at the end of each run", columns, lines)
+
+
+def _finding(rows: list[Row]) -> tuple[str, Agreement]:
+    parts = []
+    for reynolds in reynolds_numbers(rows):
+        for correction in corrections(rows):
+            mine = select(rows, reynolds=reynolds, correction=correction)
+            if mine:
+                each = (
+                    f"{row['viscosity']} " + (how(row) if failed(row) else f"{row.get('kinetic_energy_error', 0):+.1%}")
+                    for row in mine
+                )
+                parts.append(f"Re = {reynolds:g}, {LEVELS[correction]}: {', '.join(each)}")
+    finished = [row for row in rows if not failed(row) and row["reynolds"] == 1000.0]
+    under = bool(finished) and all(row.get("kinetic_energy_error", 0.0) < 0 for row in finished)
+    missing = not select(rows, reynolds=1000.0)
+    return "; ".join(parts), "partly" if missing or not under else "yes"
+
+
+def _figure(rows: list[Row]) -> Figure:
+    from sphear.results.figure.history import HistoryPanel, history_panels
+
+    panels = []
+    for correction, reynolds in product(corrections(rows), reynolds_numbers(rows)):
+        mine = select(rows, correction=correction, reynolds=reynolds)
+        known = {}
+        if reynolds in MAC_TIMES:
+            for name, flow in (("staggered grid, extrapolated", mac(reynolds)), ("OpenFOAM", openfoam(reynolds))):
+                assert flow.energy is not None
+                known[name] = (flow.energy.stations, flow.energy.values)
+        curves = {row["viscosity"]: tuple(zip(*row["energy"], strict=True)) for row in mine}
+        panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}", curves, known))
+    title = "Lid-driven cavity, 50 x 50 particles (Basa, Quinlan & Lastiwka 2009, figure 9)"
+    return history_panels(panels, "t", "kinetic energy", title, columns=max(1, len(reynolds_numbers(rows))))

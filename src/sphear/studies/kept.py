@@ -1,0 +1,70 @@
+"""Results of long studies, kept in the package with their settings, so that they are redrawn and not computed."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any, Protocol
+
+from sphear.engine.cache import cache_directory
+from sphear.errors import SphearError
+from sphear.results.finite import finite
+from sphear.studies.result import Progress, StudyResult
+
+if TYPE_CHECKING:
+    from sphear.sweeps import Run, SweepResult
+
+
+class LongStudy(Protocol):
+    """A study whose numbers take long: computing them and presenting them are two steps."""
+
+    def compute(self, *, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
+        """All numbers that are shown, as JSON knows them."""
+
+    def present(self, data: dict[str, Any]) -> StudyResult:
+        """Tables, figures and the finding."""
+
+
+def kept(paper: str, item: str) -> dict[str, Any]:
+    """The kept numbers of an item.
+
+    Raises:
+        SphearError: there are none.
+    """
+    place = files(f"sphear.studies.{paper}").joinpath("results", f"{item}.json")
+    try:
+        found = json.loads(place.read_text(encoding="utf-8"))
+    except OSError:
+        raise SphearError(f"no results of {paper} {item} are kept: compute them with --rerun") from None
+    return dict(found)
+
+
+def as_text(data: dict[str, Any]) -> str:
+    """The numbers as they are kept: a line for each entry of the lists at the top, so that changes can be read."""
+    lines = []
+    for key, value in finite(data).items():
+        if isinstance(value, list) and value and isinstance(value[0], dict):
+            entries = ",\n  ".join(json.dumps(entry) for entry in value)
+            lines.append(f"{json.dumps(key)}: [\n  {entries}\n ]")
+        else:
+            lines.append(f"{json.dumps(key)}: {json.dumps(value)}")
+    return "{\n " + ",\n ".join(lines) + "\n}\n"
+
+
+def swept(runs: list[Run], paper: str, workers: int, progress: Progress) -> list[SweepResult]:
+    """The results of runs, each kept as it ends in the user's cache folder: an interrupted study goes on from there.
+
+    Raises:
+        SphearError: a run was lost.
+    """
+    from sphear.sweeps import Store, run_sweep
+
+    store = Store(cache_directory() / "runs" / paper)
+    results = run_sweep(runs, store, workers=workers, progress=lambda state: progress(str(state)))
+    lost = [result for result in results if result.lost]
+    if lost:
+        raise SphearError(
+            f"{len(lost)} of {len(runs)} runs were lost ({lost[0].end}): the same command computes them and keeps the"
+            " others"
+        )
+    return results
