@@ -2,7 +2,8 @@
 
 Numba keeps machine code beside a module and recompiles when that module is edited, but does not notice an edit in a
 module that it calls. Here whatever a sweep is made of stands in its own text (the traced formula) or in the stamp
-(the sources of all compiled functions that generated code calls, and the versions below them), so stale machine code cannot be met.
+(the sources of all compiled functions that generated code calls, and the versions below them), so stale machine code
+cannot be met.
 """
 
 from __future__ import annotations

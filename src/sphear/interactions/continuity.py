@@ -42,8 +42,8 @@ class DensityDiffusion(Part):
 
     Molteni & Colagrossi 2009, A simple procedure to improve the pressure evaluation in hydrodynamic context using the
     SPH, Comput. Phys. Comm. 180:861; what it takes from one particle of a pair it gives to the other. With gradients it
-    leaves linear densities alone, and smooth ones nearly: psi_ij = rho_i - rho_j - 1/2 (grad rho_i + grad rho_j) . r_ij,
-    Antuono, Colagrossi, Marrone & Molteni 2010, Comput. Phys. Comm. 181:532.
+    leaves linear densities alone, and smooth ones nearly: psi_ij = rho_i - rho_j - 1/2 (grad rho_i + grad rho_j) .
+    r_ij, Antuono, Colagrossi, Marrone & Molteni 2010, Comput. Phys. Comm. 181:532.
 
     Args:
         kernel: with its smoothing length h.

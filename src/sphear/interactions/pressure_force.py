@@ -15,7 +15,7 @@ Form = Literal["squares", "products"]
 
 @dataclass(frozen=True)
 class PressureForce(Part):
-    """du_i/dt = -sum_j m_j (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij, or -sum_j m_j (p_i + p_j) / (rho_i rho_j) grad W_ij.
+    """du_i/dt = -sum_j m_j (p_i / rho_i^2 + p_j / rho_j^2) grad W_ij, or with (p_i + p_j) / (rho_i rho_j).
 
     Basa, Quinlan & Lastiwka 2009, eqs. 8 and 9, j = i included, where a corrected grad W_ii is not zero. With the mean
     of the neighbours' pressures subtracted from p_i and p_j it is eq. 20: the mean is a constant of particle i, so that

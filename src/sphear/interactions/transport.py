@@ -15,8 +15,9 @@ TENSILE = 0.2  # strength of the term that keeps pairs from sticking together (M
 
 @dataclass(frozen=True)
 class Shifting(Part):
-    """The drift w_i = -2 h U a sum_j V_j (1 + 0.2 (W_ij / W(dx))^4) grad W_ij, at most U / 2: down the particle concentration.
+    """The drift w_i = -2 h U a sum_j V_j (1 + 0.2 (W_ij / W(dx))^4) grad W_ij, at most U / 2.
 
+    It moves particles down their concentration.
     Lind, Xu, Stansby & Rogers 2012, J. Comput. Phys. 231:1499, with the speed of Skillen et al. 2013, CMAME 265:163,
     as a velocity (Sun et al. 2017), so that it does not depend on the time step.
 

@@ -132,7 +132,7 @@ class Flow:
             state=np.array(_numbers(chosen.equation_of_state)),
             wall_state=np.array(_numbers(chosen.wall_state)),
             table=selection_table_once(),
-            index=index,
+            moments=index,
             right=right,
         )
         self._constants = tuple(np.array(numbers or [0.0]) for numbers in chosen.parameters())

@@ -76,8 +76,8 @@ def advance(x, v, f, change, dt, steps, fresh, fastest, count, parts, space, num
     dimension = x.shape[1]
     x_half, v_half = x.copy(), v.copy()
     density, energy = {half_density}, {half_energy}
-    half_f = Fields(f.mass, f.viscosity, density, f.pressure, energy, f.drift, f.density_gradient, f.normal, f.depth, f.wall_velocity,
-                    f.nearest)
+    half_f = Fields(f.mass, f.viscosity, density, f.pressure, energy, f.drift, f.density_gradient, f.normal, f.depth,
+                    f.wall_velocity, f.nearest)
     for step in range(steps):
         for i in range(count):
             for k in range(dimension):

@@ -60,7 +60,7 @@ def rates(x, v, f, change, count, parts, space, numbers_of, constants):
     """
     total, dimension = x.shape
     lower, upper, kinds, velocities = space
-    force, spacing, support, state, wall_state, table, index, right = numbers_of
+    force, spacing, support, state, wall_state, table, moments, right = numbers_of
     positions, source, wall = with_images(x, lower, upper, kinds, {layers} * support, {on_wall})
     entries = len(source)
     coordinates, order, cell, start, cells = sorted_cells(positions, support)
@@ -268,7 +268,8 @@ def _preparations_text(
         if hasattr(interaction, "solve"):
             lines += [
                 "solved = np.empty((len(entry), 1 + len(right)))",
-                f"solve_normal_equations({found}[:{rows[1]}], index, right, solved[:{rows[1]}, 0], solved[:{rows[1]}, 1:])",
+                f"solve_normal_equations({found}[:{rows[1]}], moments, right, solved[:{rows[1]}, 0],",
+                f"                       solved[:{rows[1]}, 1:])",
                 f"{found} = solved",
             ]
             form = interaction.template(sweeps.dimension)

@@ -42,11 +42,11 @@ class Problem:
     length: float
 
     def time_step_limits(self, h: float, sound_speed: float) -> dict[str, float]:
-        """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997, section 2.6)."""
+        """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997)."""
         force = math.hypot(*self.body_force)
         return {
             "cfl": 0.25 * h / (sound_speed + self.speed),
-            "viscous": 0.125 * h**2 / self.kinematic_viscosity,
+            "viscous": 0.125 * h**2 / self.kinematic_viscosity if self.kinematic_viscosity > 0 else math.inf,
             "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
         }
 

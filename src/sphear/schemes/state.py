@@ -60,7 +60,7 @@ class Numbers(NamedTuple):
     state: parameters of the equation of state.
     wall_state: those of the one that gives wall particles their density.
     table: for selecting neighbours.
-    index, right: of a preparation's normal equations.
+    moments, right: of a preparation's normal equations.
     """
 
     force: Array
@@ -69,5 +69,5 @@ class Numbers(NamedTuple):
     state: Array
     wall_state: Array
     table: Array
-    index: Array
+    moments: Array
     right: Array

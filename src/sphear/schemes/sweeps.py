@@ -24,7 +24,7 @@ COLUMNS = {
     "body_force": "force[{k}]",
     # an image has it reflected across its walls, and one on a wall stays there
     **{
-        name: f"(0.0 if wall[e] & 64 else (-f.{name}[i, {{k}}] if (wall[e] >> (2 * {{k}})) & 3 else f.{name}[i, {{k}}]))"
+        name: f"(0.0 if wall[e] & 64 else f.{name}[i, {{k}}] * (-1.0 if (wall[e] >> (2 * {{k}})) & 3 else 1.0))"
         for name in ("drift", "density_gradient")
     },
     "before": "before[e, {k}]",
@@ -118,8 +118,7 @@ class Sweeps:
         return [
             f"records{number} = np.empty((entries, {-(-len(columns) // 4) * 4}))",
             f"private{number} = np.empty((entries, {len(private)}))",
-            f"pack{number}(parts, order, source, wall, positions, {self.velocity}, v, f,"
-            " count,"
+            f"pack{number}(parts, order, source, wall, positions, {self.velocity}, v, f, count,"
             f" force, before, records{number}, private{number})",
             f"{result} = np.empty(({size}, {len(formula.finish_outputs)}))",
             f"rows{number}(constants[{number}], far, records{number}, private{number}, {prepared}, {result}, {target},"

@@ -19,7 +19,7 @@ Array = np.ndarray[Any, Any]
 
 JITTER = 0.5  # of a spacing, before disordered particles are let settle
 SETTLING_STEPS = 200
-SETTLING_RATE = 0.1
+SETTLING_RATE = 0.2  # of a smoothing length, for a drift of the largest speed
 
 
 def particles_between(box: Box, settings: FlowSettings) -> tuple[Array, float]:
@@ -52,14 +52,15 @@ def relaxed(positions: Array, box: Box, spacing: float, seed: int) -> Array:
     generator = np.random.default_rng(seed)
     x = positions + JITTER * spacing * generator.uniform(-1.0, 1.0, positions.shape)
     kernel = WendlandC2(1.5 * spacing)
-    shifting = Rates((Shifting(kernel, 1.0, 1e6, spacing),))  # its limit is out of reach: the speed divides out
+    speed = 1e6  # the drift is limited to half of it: out of reach, and divided out
+    shifting = Rates((Shifting(kernel, 1.0, speed, spacing),))
     lower, upper, kinds, _ = box.arrays()
-    for _ in range(SETTLING_STEPS):
-        entries, source, _ = with_images(_inside(x, box), lower, upper, kinds, kernel.radius, 0.0)
+    for _step in range(SETTLING_STEPS):
+        entries, _, _ = with_images(_inside(x, box), lower, upper, kinds, kernel.radius, 0.0)
         neighbours = Neighbours(entries, kernel.radius, threads=1)
         volumes = np.full(len(entries), spacing ** positions.shape[1])
-        step = sweep(shifting, neighbours, volume=volumes)[: len(x)]
-        x = entries[: len(x)] + SETTLING_RATE * step / 1e6 * spacing / kernel.h
+        drift = sweep(shifting, neighbours, volume=volumes)[: len(x)]
+        x = entries[: len(x)] + SETTLING_RATE * kernel.h * drift / speed
     return _inside(x, box)
 
 

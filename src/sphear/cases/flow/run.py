@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -116,7 +115,7 @@ class FlowRun:
         temporary = path.with_suffix(".tmp")
         with temporary.open("wb") as file:
             np.savez(file, allow_pickle=False, about=np.array(json.dumps(about)), **self.flow.state())
-        os.replace(temporary, path)  # a run that is killed meanwhile leaves the file before
+        temporary.replace(path)  # a run that is killed meanwhile leaves the file before
 
     def restore(self, path: Path) -> None:
         """Go on from a file that `save` wrote.

@@ -3,6 +3,7 @@
 A figure belongs to its caller alone: `matplotlib.pyplot`, with its global state and its windows, is not used.
 """
 
+from sphear.results.figure.channel import Lines, Snapshot, line_panels, snapshots
 from sphear.results.figure.convergence import Convergence, convergence_panels, loglog_convergence
 from sphear.results.figure.flow import flow_panels
 from sphear.results.figure.panels import Profile, profiles, scatter_panels, surface_panels
@@ -11,13 +12,17 @@ from sphear.results.figure.style import LOOKS, look, save
 __all__ = [
     "LOOKS",
     "Convergence",
+    "Lines",
     "Profile",
+    "Snapshot",
     "convergence_panels",
     "flow_panels",
+    "line_panels",
     "loglog_convergence",
     "look",
     "profiles",
     "save",
     "scatter_panels",
+    "snapshots",
     "surface_panels",
 ]

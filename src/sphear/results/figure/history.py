@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from sphear.results.figure.style import FAINT, INK, Curve, grid, key, look, styled
 
-REFERENCES = (("-", INK), ("--", FAINT), (":", INK))
+REFERENCES: tuple[tuple[Any, str], ...] = (("-", INK), ("--", FAINT), (":", INK))
 
 
 class HistoryPanel(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -57,7 +57,7 @@ def _ends(ax: Axes, name: str, ends: Sequence[tuple[float, float, str]]) -> None
     ax.plot([e[0] for e in ordered], [e[1] for e in ordered], _dashes(name), color=colour, linewidth=1.1)
     for reynolds, time, how in ordered:
         fill = "full" if how == "failed" else "none"
-        ax.plot(reynolds, time, marker, color=colour, fillstyle=fill, markersize=5.5)  # type: ignore[arg-type]
+        ax.plot(reynolds, time, marker, color=colour, fillstyle=fill, markersize=5.5)
 
 
 def _base(name: str) -> str:
@@ -65,5 +65,5 @@ def _base(name: str) -> str:
     return "cleary" if name.startswith("cleary") else name
 
 
-def _dashes(name: str) -> str:
+def _dashes(name: str) -> Any:
     return {"cleary_4.24": "--", "cleary_4.96333": ":"}.get(name, "-")

@@ -67,7 +67,7 @@ def _short(value: float | None) -> float | None:
 
 
 def outcome(row: Row) -> str:
-    """ "steady", "failed" or "steps", of a run."""
+    """How a run ended: "steady", "failed" or "steps"."""
     return str(row["end"]).partition(":")[0]
 
 

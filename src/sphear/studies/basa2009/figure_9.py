@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["compute", "present"]
 
 CLAIM = (
-    "all terms under-predict the kinetic energy at Re = 1000; D is the best by a small margin, C nearly as good; B fails"
-    " at Re = 1000 when corrected; E shows spikes, above all uncorrected; A is stable with corrections only"
+    "all terms under-predict the kinetic energy at Re = 1000; D is the best by a small margin, C nearly as good; B"
+    " fails at Re = 1000 when corrected; E shows spikes, above all uncorrected; A is stable with corrections only"
 )
 
 
@@ -85,7 +85,9 @@ def _figure(rows: list[Row]) -> Figure:
             for name, flow in (("staggered grid, extrapolated", mac(reynolds)), ("OpenFOAM", openfoam(reynolds))):
                 assert flow.energy is not None
                 known[name] = (flow.energy.stations, flow.energy.values)
-        curves = {row["viscosity"]: tuple(zip(*row["energy"], strict=True)) for row in mine}
+        curves = {
+            row["viscosity"]: ([t for t, _ in row["energy"]], [energy for _, energy in row["energy"]]) for row in mine
+        }
         panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}", curves, known))
     title = "Lid-driven cavity, 50 x 50 particles (Basa, Quinlan & Lastiwka 2009, figure 9)"
     return history_panels(panels, "t", "kinetic energy", title, columns=max(1, len(reynolds_numbers(rows))))
