@@ -8,19 +8,18 @@ from typing import Any
 import numba
 import numpy as np
 
-from sphear.boundaries import WALL_VELOCITIES, wall_particles
+from sphear.boundaries import WALL_VELOCITIES
 from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.equations_of_state import IdealGas
 from sphear.errors import SphearError
-from sphear.neighbours.pair_list import selection_table_once
 from sphear.operators import arguments
-from sphear.schemes.formulas import Formulas, formulas
+from sphear.schemes.arrays import arrays
+from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
-from sphear.schemes.state import Change, Fields, Numbers, Space
 
 Array = np.ndarray[Any, Any]
 
@@ -70,7 +69,9 @@ class Flow:
         self.time_step = self._time_step()
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))
-        self._set_up(chosen)
+        at_start = arrays(settings, problem, chosen, self.kernel, self._energy_at_rest())
+        self._x, self._v, self._fields, self._change, self._space, self._numbers, self._constants = at_start
+        self._fresh = False  # whether the rates are those of the state
         self.threads = min(thread_count(settings.threads, self.count), numba.config.NUMBA_NUM_THREADS)
         self._loop = loop_module(
             problem.positions.shape[1],
@@ -85,62 +86,6 @@ class Flow:
 
     def _energy_at_rest(self) -> float:
         return float(IdealGas().energy(self.problem.density, self.settings.initial_pressure))
-
-    def _set_up(self, chosen: Formulas) -> None:
-        """The arrays of the time loop: of the fluid, and behind it of the fixed particles of walls."""
-        problem, settings = self.problem, self.settings
-        count, dimension = problem.positions.shape
-        layers = math.ceil(self._depth(len(chosen.stages)) / problem.spacing)
-        fixed = settings.walls != "mirror" and bool(problem.box.wall_axes)
-        behind = wall_particles(problem.box, problem.spacing, layers if fixed else 0)
-        total = count + len(behind.positions)
-        self._x = np.ascontiguousarray(np.concatenate((problem.positions, behind.positions)), np.float64)
-        self._v = np.ascontiguousarray(np.concatenate((problem.velocities, behind.velocities)), np.float64)
-
-        def of_walls(values: Array) -> Array:
-            before = np.zeros((count, *values.shape[1:]))
-            return np.concatenate((before, values)) if fixed else np.zeros((1, *values.shape[1:]))
-
-        moves, gas = "drift" in chosen.rates.roles, settings.equation_of_state == "ideal_gas"
-        self._fields = Fields(
-            mass=np.full(total, problem.density * problem.spacing**dimension),
-            viscosity=np.full(total, problem.density * problem.kinematic_viscosity),
-            density=np.full(total, problem.density),
-            pressure=np.full(total, settings.initial_pressure if gas else 0.0),
-            energy=np.full(total if gas else 1, self._energy_at_rest()),
-            drift=np.zeros((total if moves else 1, dimension)),
-            density_gradient=np.zeros((total if "density_gradient" in chosen.rates.roles else 1, dimension)),
-            normal=of_walls(behind.normals),
-            depth=of_walls(behind.depths),
-            wall_velocity=of_walls(behind.velocities),
-            nearest=count + behind.nearest,
-        )
-        self._change = Change(
-            velocity=np.zeros((count, dimension)),
-            density=np.zeros(total if "density" in chosen.rates.roles else 1),
-            energy=np.zeros(total if "energy" in chosen.rates.roles else 1),
-        )
-        self._space = Space(*problem.box.arrays(settings.walls == "mirror"))
-        index, right = np.zeros((0, 0), np.int64), np.zeros(0)
-        for _, preparation in chosen.preparations:
-            if hasattr(preparation, "normal_equations"):
-                index, right = preparation.normal_equations(dimension)
-        self._numbers = Numbers(
-            force=np.array(problem.body_force, np.float64),
-            spacing=float(problem.spacing),
-            support=float(self.kernel.radius),
-            state=np.array(_numbers(chosen.equation_of_state)),
-            wall_state=np.array(_numbers(chosen.wall_state)),
-            table=selection_table_once(),
-            moments=index,
-            right=right,
-        )
-        self._constants = tuple(np.array(numbers or [0.0]) for numbers in chosen.parameters())
-        self._fresh = False
-
-    def _depth(self, stages: int) -> float:
-        """How thick walls of fixed particles must be: densities that are summed need all their neighbours too."""
-        return self.kernel.radius * (stages + (self.settings.density == "summation"))
 
     @property
     def positions(self) -> Array:
@@ -259,12 +204,6 @@ class Flow:
             if name not in ("clock", "fresh"):
                 values[...] = state[name]
         self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
-
-
-def _numbers(equation: Any) -> list[float]:
-    from sphear.engine.structure import parameters
-
-    return parameters(equation)
 
 
 def _check_start(problem: Problem) -> None:

@@ -96,6 +96,7 @@ def present(data: dict[str, Any]) -> StudyResult:
     if LATER in times:
         late = {row["wall_velocity"]: row[f"near_{LATER:g}"] for row in plain}
         finding += f"; at t* = {LATER:g} it is {_list(late)}"
+        finding += f", where mirroring has let the row at the wall run {at(runs[0], 'first_row', LATER):+.0%} off"
         finding += _of_wall_particles(rows, plain)
         other = {row["wall_velocity"]: row[f"near_{SHOWN:g}"] for row in rows if row["viscosity"] == OTHER[0]}
         finding += f"; with {OTHER[0]}, uncorrected, at t* = {SHOWN:g} it is {_list(other)}"

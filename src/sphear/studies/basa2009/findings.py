@@ -79,8 +79,8 @@ def _best(rows: Rows) -> Said:
 def _as_robust(rows: Rows) -> Said:
     reached = {model: robust(rows, model, "none") for model in "CDE"}
     said = (
-        f"C is steady up to Re = {reached['C']:g}, D {reached['D']:g}, E {reached['E']:g}; errors {error(rows, 'C'):.1%},"
-        f" {error(rows, 'D'):.1%} and {error(rows, 'E'):.1%}"
+        f"C is steady up to Re = {reached['C']:g}, D {reached['D']:g}, E {reached['E']:g}; errors"
+        f" {error(rows, 'C'):.1%}, {error(rows, 'D'):.1%} and {error(rows, 'E'):.1%}"
     )
     worse = error(rows, "C") > max(error(rows, "D"), error(rows, "E"))
     return said, "yes" if worse and reached["C"] <= reached["E"] else "partly" if worse else "no"
@@ -104,7 +104,8 @@ def _cavity(rows: Rows) -> Said:
         for reynolds in (100.0, 1000.0)
     }
     said = "; ".join(
-        f"Re = {reynolds:g}: the least deviation has {row['viscosity']} ({row['correction']}), {figure_10.deviation(row):.4f}"
+        f"Re = {reynolds:g}: the least deviation has {row['viscosity']} ({row['correction']}),"
+        f" {figure_10.deviation(row):.4f}"
         for reynolds, row in best.items()
         if row is not None
     )
