@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
+from sphear.schemes.settings import FlowSettings
 
 
 def run(case: str, **settings: Any) -> FlowRun:
@@ -81,7 +82,9 @@ def test_as_dict_has_case_resolved_settings_metrics_and_performance() -> None:
         "max_steps": 500_000, "force": False, "kinematic_viscosity": 1.0,
         "h_over_dx": pytest.approx(1 / 0.637), "sound_speed": done.flow.sound_speed, "time_step": done.flow.time_step,
     }  # fmt: skip
-    assert settings == expected
+    assert {key: settings[key] for key in expected} == expected
+    assert set(FlowSettings.model_fields) <= set(settings)
+    assert settings["momentum"] == "squares"  # resolved: that of the summed density
     metrics = result["metrics"]
     assert set(metrics) == {"time", "steps", "rms_error", "kinetic_energy", "end", "failure_time"}
     assert (metrics["end"], metrics["failure_time"]) == ("time", None)

@@ -80,7 +80,12 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "until is nan": (["couette", "--until", "nan"], "the setting until should be"),
     "too coarse": (["poiseuille", "--resolution", "3"], "the resolution of 3 is too coarse"),
     "time step": (["poiseuille", "--set", "time_step=1"], "the time step of 1 is beyond the viscous limit of"),
-    "corrected twice": (["poiseuille", "-v", "oger", "--correction", "shepard"], "carries its own correction"),
+    "diffusion of a sum": (["poiseuille", "--set", "density_diffusion=0.1"], "density=summation has none"),
+    "unmatched": (["poiseuille", "--set", "momentum=products"], "density=summation and momentum=products"),
+    "two settings of a gas": (
+        ["poiseuille", "--set", "equation_of_state=ideal_gas", "--set", "transport=shifting"],
+        "transport=shifting moves particles without their energy, which equation_of_state=ideal_gas needs",
+    ),
     "no folder": (["poiseuille", "--out", " "], "the output folder needs a name"),
 }
 

@@ -161,11 +161,12 @@ class FlowRun:
         last = self.history[-1]
         failed = self.end.startswith("failed")
         summary = {} if failed else self.case.summary(settings, flow)
+        profiles = {} if failed else self.case.profiles(settings, flow)
         return {
             "case": self.case.name,
             "settings": {**settings.model_dump(mode="json"), **resolved},
             "metrics": {**last, **summary, "end": self.end, "failure_time": last["time"] if failed else None},
-            "profiles": {} if failed else self.case.profiles(settings, flow),
+            **({"profiles": profiles} if profiles else {}),
             "performance": {
                 "particles": len(flow.positions),
                 "steps": flow.steps,
