@@ -25,7 +25,7 @@ def main() -> None:
     chosen = parser.parse_args()
     for item in chosen.items or ITEMS["basa2009"]:
         module = import_module(f"sphear.studies.basa2009.{item.replace('-', '_')}")
-        if hasattr(module, "compute"):
+        if hasattr(module, "compute") and not hasattr(module, "KEPT"):
             data = module.compute(quick=False, workers=chosen.workers, progress=print)
             (RESULTS / f"{item}.json").write_text(as_text(data), encoding="utf-8")
 

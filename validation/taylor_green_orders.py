@@ -2,8 +2,8 @@
 
     python validation/taylor_green_orders.py [--workers N]
 
-Modern settings but for the term, c0 = 40 U so that compressibility (of the order of the Mach number squared) stays below
-the errors that are looked for. Writes taylor_green_orders.json beside itself; an interrupted run goes on where it
+Modern settings but for the term, c0 = 40 U so that compressibility (of the order of the Mach number squared) stays
+below the errors that are looked for. Writes taylor_green_orders.json beside itself; an interrupted run goes on where it
 stopped.
 """
 

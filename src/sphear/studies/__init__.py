@@ -78,7 +78,8 @@ def reproduce(
     module = import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}")
     if hasattr(module, "compute"):
         computed = quick or rerun
-        data = module.compute(quick=quick, workers=workers, progress=progress) if computed else kept(paper, item)
+        where = getattr(module, "KEPT", item)  # figures of the same runs share their numbers
+        data = module.compute(quick=quick, workers=workers, progress=progress) if computed else kept(paper, where)
         result = module.present(data)
     else:
         result = module.run(quick=quick, progress=progress)

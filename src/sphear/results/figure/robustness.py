@@ -38,12 +38,12 @@ def robustness_panels(panels: Sequence[Panel], title: str) -> Figure:
         for name, points in panel.errors.items():
             if points:
                 times, errors = zip(*points, strict=True)
-                right.plot(times, errors, _dashes(name), color=look(_base(name)).colour, linewidth=1.3)
+                right.plot(times, errors, _dashes(name), color=look(name).colour, linewidth=1.3)
         left.set(xscale="log", yscale="log", xlabel="Re", ylabel="t* at the end", title=panel.title)
         right.set(xscale="log", yscale="log", xlabel="t*", ylabel="RMS error", title="Re = 0.5")
         right.axhline(0.12, color=FAINT, linewidth=0.8)
     handles = {
-        name: Line2D([], [], color=look(_base(name)).colour, marker=look(_base(name)).marker, linestyle=_dashes(name))
+        name: Line2D([], [], color=look(name).colour, marker=look(name).marker, linestyle=_dashes(name))
         for name in names
     }
     open_ = {"open: did not fail": Line2D([], [], color=FAINT, marker="o", fillstyle="none", linestyle="none")}
@@ -52,17 +52,12 @@ def robustness_panels(panels: Sequence[Panel], title: str) -> Figure:
 
 
 def _ends(ax: Axes, name: str, ends: Sequence[tuple[float, float, str]]) -> None:
-    colour, marker = look(_base(name))
+    colour, marker = look(name)
     ordered = sorted(ends)
     ax.plot([e[0] for e in ordered], [e[1] for e in ordered], _dashes(name), color=colour, linewidth=1.1)
     for reynolds, time, how in ordered:
         fill = "full" if how == "failed" else "none"
         ax.plot(reynolds, time, marker, color=colour, fillstyle=fill, markersize=5.5)
-
-
-def _base(name: str) -> str:
-    """The term of a named setting: cleary_4.24 is drawn as cleary."""
-    return "cleary" if name.startswith("cleary") else name
 
 
 def _dashes(name: str) -> Any:

@@ -73,8 +73,9 @@ LOOKS = {
 
 
 def look(name: str) -> Look:
-    """Return how a series is drawn: its first word decides, so "gotoh as printed" looks like "gotoh"."""
-    return LOOKS.get(name.partition(" ")[0], Look(INK, "d"))
+    """Return how a series is drawn: "gotoh as printed" looks like "gotoh", "cleary_4.24" like "cleary"."""
+    word = name.partition(" ")[0]
+    return LOOKS.get(word) or LOOKS.get(word.rpartition("_")[0], Look(INK, "d"))
 
 
 def grid(panels: int, columns: int, size: tuple[float, float], title: str) -> tuple[Figure, list[Axes]]:

@@ -7,10 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 from sphear.references.cavity import ghia, mac
 from sphear.results.table import Column, Table
-from sphear.studies.basa2009 import cavity_results
-from sphear.studies.basa2009.cavity_results import LEVELS, Row, corrections, failed, how, reynolds_numbers, select
-from sphear.studies.kept import kept
-from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.basa2009.cavity_results import (
+    LEVELS,
+    Row,
+    compute,
+    corrections,
+    failed,
+    how,
+    reynolds_numbers,
+    select,
+)
+from sphear.studies.result import Agreement, StudyResult
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,13 +26,8 @@ CLAIM = (
     "at Re = 100 all terms are alike but for B, whose particles clump; at Re = 1000 they differ more, A is noisy, and D"
     " produces the best results by a small margin"
 )
-
-
-def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
-    """The runs of figure 9: computed for a quick look, else as they are kept."""
-    if quick:
-        return cavity_results.compute(quick=quick, workers=workers, progress=progress)
-    return kept("basa2009", "figure-9")
+KEPT = "figure-9"  # whose runs are the same
+__all__ = ["KEPT", "compute", "deviation", "present"]
 
 
 def present(data: dict[str, Any]) -> StudyResult:
@@ -87,7 +89,8 @@ def _figure(rows: list[Row]) -> Figure:
             "staggered grid, extrapolated": (exact.u.stations, exact.u.values),
             "Ghia, Ghia & Shin (steady)": (table.u.stations, table.u.values),
         }
-        panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}", curves, known))
+        lacking = "" if mine else ": not computed"
+        panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}{lacking}", curves, known))
     return history_panels(
         panels, "y", "u on x = 1/2", "Lid-driven cavity (Basa, Quinlan & Lastiwka 2009, figure 10)",
         columns=max(1, len(reynolds_numbers(rows))), points=("Ghia, Ghia & Shin (steady)",),

@@ -109,7 +109,7 @@ def present(data: dict[str, Any]) -> StudyResult:
     for row in rows[2:]:
         when = "does not fail" if row["failure_time"] is None else f"passes 12 % at t* = {row['failure_time']:.3g}"
         if row["pressure_reduction"] == "hydrostatic":
-            finding += f"; with the pressure at rest subtracted it {when} and ends with {row['error']:.0%}"
+            finding += f"; with the pressure at rest subtracted it {when}"
         else:
             finding += f"; at Re = {row['reynolds']:g}, where shear disturbs nothing, it {when} without reduction"
     agrees: Agreement = "yes" if fails and holds else "no"

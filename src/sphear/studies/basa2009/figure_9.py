@@ -88,6 +88,7 @@ def _figure(rows: list[Row]) -> Figure:
         curves = {
             row["viscosity"]: ([t for t, _ in row["energy"]], [energy for _, energy in row["energy"]]) for row in mine
         }
-        panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}", curves, known))
+        lacking = "" if mine else ": not computed"
+        panels.append(HistoryPanel(f"Re = {reynolds:g}, {LEVELS[correction]}{lacking}", curves, known))
     title = "Lid-driven cavity, 50 x 50 particles (Basa, Quinlan & Lastiwka 2009, figure 9)"
     return history_panels(panels, "t", "kinetic energy", title, columns=max(1, len(reynolds_numbers(rows))))
