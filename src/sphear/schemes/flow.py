@@ -65,7 +65,7 @@ class Flow:
             if gas
             else settings.sound_speed or morris_sound_speed(problem)
         )
-        self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed)
+        self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed, self.term.radial)
         self.time_step = self._time_step()
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))

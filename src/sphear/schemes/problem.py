@@ -41,12 +41,21 @@ class Problem:
     speed: float
     length: float
 
-    def time_step_limits(self, h: float, sound_speed: float) -> dict[str, float]:
-        """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997)."""
-        force = math.hypot(*self.body_force)
+    def time_step_limits(self, h: float, sound_speed: float, radial: bool = False) -> dict[str, float]:
+        """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997).
+
+        Args:
+            h: the smoothing length.
+            sound_speed: at rest.
+            radial: whether the viscous term acts along the line of centres: it contains the gradient of the
+                divergence, so that waves along their own direction feel up to three times the viscosity.
+        """
+        force, nu = math.hypot(*self.body_force), self.kinematic_viscosity
         return {
             "cfl": 0.25 * h / (sound_speed + self.speed),
-            "viscous": 0.125 * h**2 / self.kinematic_viscosity if self.kinematic_viscosity > 0 else math.inf,
+            "viscous": (1 / 12 if radial else 1 / 8) * h**2 / self.kinematic_viscosity
+            if self.kinematic_viscosity > 0
+            else math.inf,
             "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
         }
 

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -61,12 +62,13 @@ class FlowRun:
             progress: told where the run stands, at each output.
             keep: a file that the state is saved to now and then, and when the run is interrupted.
         """
-        self.flow.advance(0)  # compiles
         steps = min(self.planned * self.unit / self.flow.time_step, self.settings.max_steps)
         every = int(np.clip(steps / OUTPUTS, 1, 1000))
         until = np.inf if self.settings.until is None else self.settings.until * self.unit
         saved = time.monotonic()
+        output = self.flow.state(), len(self.history)
         try:
+            self.flow.advance(0)  # compiles
             while not self.end:
                 left = min(
                     self.settings.max_steps - self.flow.steps, np.ceil((until - self.flow.time) / self.flow.time_step)
@@ -78,11 +80,15 @@ class FlowRun:
                     self.end = f"failed: {failure}"
                 self.seconds += time.perf_counter() - began
                 self._observe(until)
+                output = self.flow.state(), len(self.history)
                 progress(self._standing(steps))
                 if keep is not None and time.monotonic() - saved > SAVED_EVERY:
                     self.save(keep)
                     saved = time.monotonic()
         except KeyboardInterrupt:
+            state, rows = output  # Ctrl-C comes as the compiled loop returns, before the clock knows its steps
+            self.flow.restore(state)
+            del self.history[rows:]
             if keep is not None:
                 self.save(keep)
             raise
@@ -127,7 +133,7 @@ class FlowRun:
             with np.load(path, allow_pickle=False) as file:
                 state = dict(file)
             about = json.loads(str(state.pop("about")))
-        except (OSError, ValueError, KeyError):
+        except (OSError, EOFError, ValueError, KeyError, BadZipFile):
             raise SphearError(f"there is no saved run in {path} that could be gone on with") from None
         now = self.settings.model_dump(mode="json")
         changed = [

@@ -11,6 +11,8 @@ from matplotlib.lines import Line2D
 
 from sphear.results.figure.style import FAINT, grid, key, look, styled
 
+RANGES = ((0.07, 1.5e4), (0.03, 60.0), (0.1, 40.0))  # of Re, t* at the end, and t*: the same in all plots
+
 
 class Panel(NamedTuple):
     """One pair of plots.
@@ -40,7 +42,9 @@ def robustness_panels(panels: Sequence[Panel], title: str) -> Figure:
                 times, errors = zip(*points, strict=True)
                 right.plot(times, errors, _dashes(name), color=look(name).colour, linewidth=1.3)
         left.set(xscale="log", yscale="log", xlabel="Re", ylabel="t* at the end", title=panel.title)
-        right.set(xscale="log", yscale="log", xlabel="t*", ylabel="RMS error", title="Re = 0.5")
+        left.set(xlim=RANGES[0], ylim=RANGES[1])
+        right.set(xscale="log", yscale="log", xlabel="t*", ylabel="RMS error", title=f"{panel.title}, Re = 0.5")
+        right.set(xlim=RANGES[2])
         right.axhline(0.12, color=FAINT, linewidth=0.8)
     handles = {
         name: Line2D([], [], color=look(name).colour, marker=look(name).marker, linestyle=_dashes(name))

@@ -19,6 +19,7 @@ Curve = tuple[ArrayLike, ArrayLike]
 INK = "#333333"
 FAINT = "#8c8c8c"
 FONT_SIZE = 9.0
+KEY_WIDTH = 1.7  # inches that an entry of the key takes
 
 # Matplotlib looks settings up when it draws as well as when it saves: what does either is decorated.
 styled = matplotlib.rc_context(
@@ -88,7 +89,8 @@ def grid(panels: int, columns: int, size: tuple[float, float], title: str) -> tu
 
 def key(figure: Figure, handles: Mapping[str, Line2D]) -> None:
     """Explain what is drawn, below all panels so that no point is covered."""
-    figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=len(handles))
+    columns = min(len(handles), max(1, int(figure.get_figwidth() / KEY_WIDTH)))
+    figure.legend(list(handles.values()), list(handles), loc="outside lower center", ncols=columns)
 
 
 @styled

@@ -148,6 +148,11 @@ def error_at(row: Row, time: float) -> float:
     return float(min(known, key=lambda pair: abs(pair[0] - time))[1])
 
 
+def percent(error: float) -> str:
+    """An error in percent; infinite ones are those of runs that failed."""
+    return f"{error:.2%}" if math.isfinite(error) else "failed"
+
+
 def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
     def robust(**wanted: Any) -> float:
         return highest_steady(select(rows, **wanted))
@@ -161,7 +166,7 @@ def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
     plain = {term: robust(equation_of_state="batchelor_tait", correction="none", viscosity=term) for term in terms}
     zeroth = {term: robust(equation_of_state="batchelor_tait", correction="shepard", viscosity=term) for term in terms}
     reach = ", ".join(f"{term} {plain[term]:g} ({zeroth[term]:g})" for term in terms)
-    errors = ", ".join(f"{term} {error(term):.2%}" for term in terms)
+    errors = ", ".join(f"{term} {percent(error(term))}" for term in terms)
     said = (
         f"weakly compressible, the steady state is reached at every Re tried up to, without correction (with level 0):"
         f" {reach}; median RMS errors at Re = 0.5, t* = 5, of all corrections and equations of state: {errors}"

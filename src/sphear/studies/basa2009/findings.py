@@ -8,7 +8,7 @@ from typing import Any
 
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009 import figure_2, figure_4, figure_7, figure_9, figure_10
-from sphear.studies.basa2009.figure_5 import LABELS, error_at, highest_steady, select
+from sphear.studies.basa2009.figure_5 import LABELS, error_at, highest_steady, percent, select
 from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS
 from sphear.studies.kept import kept
 from sphear.studies.result import Agreement, Progress, StudyResult
@@ -47,8 +47,8 @@ def error(rows: Rows, model: str, *corrections: str) -> float:
 def _cured(rows: Rows) -> Said:
     said = (
         f"steady up to Re = {reach(rows, 'A', 'none')} without ({' and '.join(LABELS.values())}), "
-        f"{reach(rows, 'A', 'shepard')} with level 0; RMS error at Re = 0.5, t* = 5: {error(rows, 'A', 'none'):.1%} and"
-        f" {error(rows, 'A', 'shepard'):.1%}"
+        f"{reach(rows, 'A', 'shepard')} with level 0; RMS error at Re = 0.5, t* = 5:"
+        f" {percent(error(rows, 'A', 'none'))} and {percent(error(rows, 'A', 'shepard'))}"
     )
     without, with_it = robust(rows, "A", "none"), robust(rows, "A", "shepard")
     return said, "yes" if without == 0 < with_it else "partly" if without < with_it else "no"
@@ -58,7 +58,8 @@ def _least_robust(rows: Rows) -> Said:
     others = {model: robust(rows, model, "none") for model in "BCDE"}
     said = (
         f"B is steady up to Re = {reach(rows, 'B', 'none')} uncorrected and {reach(rows, 'B', 'shepard')} with level 0,"
-        f" E up to {reach(rows, 'E', 'none')}; error at Re = 0.5: B {error(rows, 'B'):.1%}, E {error(rows, 'E'):.1%}"
+        f" E up to {reach(rows, 'E', 'none')}; error at Re = 0.5: B {percent(error(rows, 'B'))}, E"
+        f" {percent(error(rows, 'E'))}"
     )
     least = others["B"] <= min(others.values())
     accurate = error(rows, "B") <= 1.5 * min(error(rows, model) for model in "CDE")
@@ -68,7 +69,7 @@ def _least_robust(rows: Rows) -> Said:
 def _best(rows: Rows) -> Said:
     errors = {model: error(rows, model) for model in MODELS}
     reached = {model: robust(rows, model, "none") for model in MODELS}
-    said = "errors at Re = 0.5 " + ", ".join(f"{model} {value:.1%}" for model, value in errors.items())
+    said = "errors at Re = 0.5 " + ", ".join(f"{model} {percent(value)}" for model, value in errors.items())
     said += "; steady up to Re = " + ", ".join(f"{model} {value:g}" for model, value in reached.items())
     accurate = sorted(errors, key=errors.__getitem__)[:2]
     top = max(reached.values())
@@ -80,7 +81,7 @@ def _as_robust(rows: Rows) -> Said:
     reached = {model: robust(rows, model, "none") for model in "CDE"}
     said = (
         f"C is steady up to Re = {reached['C']:g}, D {reached['D']:g}, E {reached['E']:g}; errors"
-        f" {error(rows, 'C'):.1%}, {error(rows, 'D'):.1%} and {error(rows, 'E'):.1%}"
+        f" {percent(error(rows, 'C'))}, {percent(error(rows, 'D'))} and {percent(error(rows, 'E'))}"
     )
     worse = error(rows, "C") > max(error(rows, "D"), error(rows, "E"))
     return said, "yes" if worse and reached["C"] <= reached["E"] else "partly" if worse else "no"
@@ -90,7 +91,7 @@ def _little_help(rows: Rows) -> Said:
     said, helped, harmed = [], False, False
     for model in "CDE":
         plain, corrected = error(rows, model, "none"), error(rows, model, "bonet_lok")
-        said.append(f"{model} {plain:.1%} to {corrected:.1%}")
+        said.append(f"{model} {percent(plain)} to {percent(corrected)}")
         helped |= corrected < 0.5 * plain
         harmed |= model == "D" and corrected > plain
     verdict: Agreement = "yes" if harmed and not helped else "partly" if harmed or not helped else "no"
