@@ -53,9 +53,7 @@ class Problem:
         force, nu = math.hypot(*self.body_force), self.kinematic_viscosity
         return {
             "cfl": 0.25 * h / (sound_speed + self.speed),
-            "viscous": (1 / 12 if radial else 1 / 8) * h**2 / self.kinematic_viscosity
-            if self.kinematic_viscosity > 0
-            else math.inf,
+            "viscous": (1 / 12 if radial else 1 / 8) * h**2 / nu if nu > 0 else math.inf,
             "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
         }
 
