@@ -20,7 +20,7 @@ from sphear.studies.kept import swept
 from sphear.sweeps import plan
 from sphear.viscosity import VISCOSITY
 
-SIDES = (20, 40, 80)
+SIDES = (16, 32, 64)
 UNTIL = 0.2
 SOUND_SPEED = 40.0
 

@@ -53,7 +53,7 @@ def test_interpolation_is_exact_where_particles_have_left_a_hole() -> None:
     off = flow.positions - 0.5
     distance = np.hypot(*off.T)[:, None]
     inside = distance < 3.5 / N
-    flow.positions[:] += np.where(inside, off / distance * (3.5 / N - distance), 0)
+    flow.positions[:] += np.where(inside, off / distance * (2.7 / N - 0.75 * distance), 0)
     flow.velocities[:] = parabolas(flow.positions)
     centre = np.array([[0.5, 0.5]])
     np.testing.assert_allclose(interpolated(flow, centre), parabolas(centre), rtol=0, atol=1e-9)

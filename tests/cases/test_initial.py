@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -56,7 +57,7 @@ def test_staggered_rows_are_shifted_by_half_a_spacing_against_each_other(sides: 
     positions, spacing = placed("staggered", sides)
     found = rows(positions)
     assert [len(row) for row in found] == [20] * 10
-    for row, following in zip(found[:-1], found[1:], strict=True):
+    for row, following in pairwise(found):
         between = (row - following) / spacing
         np.testing.assert_allclose(np.abs(between - between.round()), 0.5, atol=1e-9)
         np.testing.assert_allclose(np.diff(row), spacing)
@@ -84,7 +85,7 @@ def test_relaxed_particles_keep_their_distance(sides: str, seed: int) -> None:
     for axis, length in enumerate((4.0, 2.0)):
         if BOXES[sides][axis] == "periodic":
             images += [image + sign * length * np.eye(2)[axis] for image in list(images) for sign in (-1, 1)]
-    nearest = cKDTree(np.concatenate(images)).query(positions, k=2)[0][:, 1]
+    nearest = np.asarray(cKDTree(np.concatenate(images)).query(positions, k=2)[0])[:, 1]
     assert nearest.min() >= 0.8 * spacing
     for axis, (low, high) in enumerate(((1, 5), (-1, 1))):
         if BOXES[sides][axis] == "walls":

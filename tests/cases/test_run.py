@@ -156,8 +156,8 @@ def test_the_modern_settings_are_ten_times_as_accurate_as_the_papers() -> None:
     assert done.history[-1]["rms_error"] < 0.003
 
 
-@pytest.mark.parametrize("preset", PRESETS)
-@pytest.mark.parametrize("case", FLOWS)
+@pytest.mark.parametrize("preset", list(PRESETS))
+@pytest.mark.parametrize("case", list(FLOWS))
 def test_every_preset_fits_every_case(preset: str, case: str) -> None:
     settings = FLOWS[case].settings(**PRESETS[preset])
     assert all(getattr(settings, key) == value for key, value in PRESETS[preset].items())

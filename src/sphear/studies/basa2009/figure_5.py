@@ -97,8 +97,9 @@ def present(data: dict[str, Any]) -> StudyResult:
     if modern:
         tables.append(_modern_table(modern))
         steady = highest_steady(modern)
-        worst = max(row["rms_error"] for row in modern if outcome(row) == "steady")
-        said += f"; beyond the paper, the modern settings reach it up to Re = {steady:g}, errors at most {worst:.2%}"
+        worst = max((row["rms_error"] for row in modern if outcome(row) == "steady"), default=math.inf)
+        said += f"; beyond the paper, the modern settings reach it up to Re = {steady:g}, errors at most"
+        said += f" {percent(worst)}"
     return StudyResult(CLAIM, said, agrees, rows, tables, {"figure-5": lambda: _figure(rows, modern)})
 
 

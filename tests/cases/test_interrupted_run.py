@@ -1,0 +1,106 @@
+"""Ctrl-C where it really comes: in the compiled loop; and files that were damaged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from sphear.cases.flow import FLOWS, FlowRun
+from sphear.errors import SphearError
+
+CASE = FLOWS["poiseuille"]
+SCHEMES: dict[str, dict[str, Any]] = {
+    "midpoint": {},
+    "kick drift kick": {"integrator": "kick_drift_kick"},
+    "a gas": {"equation_of_state": "ideal_gas"},
+}
+
+
+def start(scheme: str = "midpoint") -> FlowRun:
+    return FlowRun(CASE, CASE.settings(resolution=10, until=0.1, **SCHEMES[scheme]))
+
+
+class Interrupted:
+    """A compiled loop that Ctrl-C meets in one of its calls: Python raises it as the call returns."""
+
+    def __init__(self, loop: Any, call: int) -> None:
+        self.loop, self.left = loop, call
+
+    def advance(self, *arguments: Any) -> Any:
+        made = self.loop.advance(*arguments)
+        self.left -= 1
+        if self.left == 0:
+            raise KeyboardInterrupt
+        return made
+
+
+def interrupted(run: FlowRun, call: int, path: Path) -> FlowRun:
+    run.flow._loop = Interrupted(run.flow._loop, call)
+    with pytest.raises(KeyboardInterrupt):
+        run.run(keep=path)
+    return run
+
+
+@pytest.mark.parametrize("call", [1, 2, 5])  # while it compiles, in the first steps, later
+@pytest.mark.parametrize("scheme", SCHEMES)
+def test_steps_that_the_clock_does_not_know_are_not_kept(scheme: str, call: int, tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    stopped = interrupted(start(scheme), call, path)
+    again = start(scheme)
+    again.restore(path)
+    assert (again.flow.steps, again.history) == (stopped.flow.steps, stopped.history)
+    whole = start(scheme).run()
+    assert again.run().history == whole.history
+    for name, values in whole.flow.state().items():
+        np.testing.assert_array_equal(again.flow.state()[name], values)
+
+
+def test_an_interrupted_run_stands_at_its_last_output(tmp_path: Path) -> None:
+    stopped = interrupted(start(), 5, tmp_path / "state.npz")
+    assert len(stopped.history) == 3
+    assert stopped.flow.steps == stopped.history[-1]["steps"]
+    assert stopped.flow.time == pytest.approx(stopped.history[-1]["time"] * stopped.unit)
+
+
+DAMAGES: dict[str, Callable[[bytes], bytes]] = {
+    "empty": lambda whole: b"",
+    "half": lambda whole: whole[: len(whole) // 2],
+    "the start alone": lambda whole: whole[:4],
+    "a byte changed": lambda whole: whole[: len(whole) // 2] + b"\xff\x00" + whole[len(whole) // 2 + 2 :],
+    "another file": lambda whole: b"\x89PNG\r\n",
+}
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+def test_a_damaged_file_is_refused_in_one_sentence(damage: str, tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    run = start()
+    run.save(path)
+    path.write_bytes(DAMAGES[damage](path.read_bytes()))
+    with pytest.raises(SphearError, match=r"^there is no saved run in .* that could be gone on with$"):
+        run.restore(path)
+
+
+def test_the_state_of_a_flow_of_another_size_is_refused(tmp_path: Path) -> None:
+    state = start().flow.state()
+    run = start()
+    with pytest.raises(SphearError, match=r"the saved state has no x of the shape \(100, 2\)"):
+        run.flow.restore({**state, "x": state["x"][1:]})
+    del state["v"]
+    with pytest.raises(SphearError, match="the saved state has no v"):
+        run.flow.restore(state)
+
+
+def test_saving_again_replaces_the_file_and_leaves_nothing_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    run = start()
+    run.save(path)
+    before = path.read_bytes()
+    run.flow.advance(3)
+    run.save(path)
+    assert path.read_bytes() != before
+    assert list(tmp_path.iterdir()) == [path]
