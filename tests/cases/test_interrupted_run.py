@@ -39,7 +39,7 @@ class Interrupted:
 
 
 def interrupted(run: FlowRun, call: int, path: Path) -> FlowRun:
-    run.flow._loop = Interrupted(run.flow._loop, call)
+    run.flow.__dict__["_loop"] = Interrupted(run.flow._loop, call)
     with pytest.raises(KeyboardInterrupt):
         run.run(keep=path)
     return run
@@ -72,6 +72,7 @@ DAMAGES: dict[str, Callable[[bytes], bytes]] = {
     "the start alone": lambda whole: whole[:4],
     "a byte changed": lambda whole: whole[: len(whole) // 2] + b"\xff\x00" + whole[len(whole) // 2 + 2 :],
     "another file": lambda whole: b"\x89PNG\r\n",
+    "one array": lambda whole: whole[whole.index(b"\x93NUMPY") :],
 }
 
 

@@ -55,7 +55,7 @@ def test_nothing_in_the_cavity_is_faster_than_its_lid() -> None:
 
 def wendland(q: Array) -> Array:
     """C2 with h = 1 in 2-D."""
-    return 7 / (4 * np.pi) * np.clip(1 - q / 2, 0, None) ** 4 * (1 + 2 * q)
+    return np.asarray(7 / (4 * np.pi) * np.clip(1 - q / 2, 0, None) ** 4 * (1 + 2 * q))
 
 
 @pytest.mark.parametrize("seed", [0, 1])

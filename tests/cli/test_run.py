@@ -51,6 +51,31 @@ def test_files(sphear: Run) -> None:
     assert len(Path("results/poiseuille.csv").read_text().splitlines()) > 5
 
 
+def test_particles_are_written_for_other_programs(sphear: Run) -> None:
+    sphear("run", "couette", "--resolution", "10", "--until", "0.01", "--json", "--out", "results")
+    heading, *lines = Path("results/couette-2.csv").read_text().splitlines()
+    assert heading == "x0,x1,u0,u1,density,pressure"
+    rows = [[float(number) for number in line.split(",")] for line in lines]
+    assert len(rows) == 100
+    assert all(0.99 < row[4] < 1.01 for row in rows)
+    fastest = max(rows, key=lambda row: row[2])
+    assert fastest[1] == max(row[1] for row in rows)  # beside the wall that moves
+
+
+def test_the_cavity_has_its_numbers_and_profiles(sphear: Run) -> None:
+    result = sphear("run", "cavity", "--resolution", "12", "--until", "0.05", "--json").json()
+    assert list(result) == ["case", "settings", "metrics", "profiles", "performance"]
+    deviations = {f"{name}_{kind}_deviation" for name in "uv" for kind in ("mean", "max")}
+    assert set(result["metrics"]) == deviations | {
+        "time", "steps", "kinetic_energy", "kinetic_energy_error", "u_min", "reference_time", "end", "failure_time"
+    }  # fmt: skip
+    assert (result["metrics"]["end"], result["metrics"]["reference_time"]) == ("time", 20)
+    assert result["settings"]["walls"] == "fixed"
+    stations = result["profiles"]["stations"]
+    assert 0 < stations[0] < stations[-1] < 1
+    assert len(stations) == len(result["profiles"]["u"]) == len(result["profiles"]["v"])
+
+
 def test_a_forced_time_step_is_said(sphear: Run) -> None:
     outcome = sphear("run", "poiseuille", "--set", "time_step=0.002", "--set", "max_steps=1", "--force")
     assert outcome.status == 0
@@ -85,6 +110,26 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "two settings of a gas": (
         ["poiseuille", "--set", "equation_of_state=ideal_gas", "--set", "transport=shifting"],
         "transport=shifting moves particles without their energy, which equation_of_state=ideal_gas needs",
+    ),
+    "slip without mirrors": (
+        ["cavity", "--set", "density=continuity", "--set", "slip=true"],
+        "slip is about the continuity equation beside mirrors, and not for density=continuity with walls=fixed",
+    ),
+    "transport of a continuity": (
+        ["poiseuille", "--set", "density=continuity", "--set", "transport=transport_velocity"],
+        "transport=transport_velocity is made for density=summation, not for density=continuity",
+    ),
+    "gradients that walls have not": (
+        ["poiseuille", "--preset", "modern", "--set", "walls=adami", "--set", "slip=false"],
+        "diffusion_form=antuono needs density gradients in the walls, which walls=adami has not",
+    ),
+    "sound of a gas": (
+        ["poiseuille", "--set", "equation_of_state=ideal_gas", "--set", "sound_speed=50"],
+        "sound_speed follows from initial_pressure where equation_of_state=ideal_gas",
+    ),
+    "particles on no mirror": (
+        ["couette", "--set", "walls=adami", "--set", "wall_particles=true"],
+        "wall_particles stand on mirroring walls and walls=adami has none",
     ),
     "no folder": (["poiseuille", "--out", " "], "the output folder needs a name"),
 }

@@ -130,10 +130,10 @@ class FlowRun:
             SphearError: it cannot be read, or is of another run.
         """
         try:
-            with np.load(path, allow_pickle=False) as file:
+            with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
                 state = dict(file)
             about = json.loads(str(state.pop("about")))
-        except (OSError, EOFError, ValueError, KeyError, BadZipFile):
+        except (OSError, EOFError, ValueError, KeyError, TypeError, BadZipFile):
             raise SphearError(f"there is no saved run in {path} that could be gone on with") from None
         now = self.settings.model_dump(mode="json")
         changed = [

@@ -41,13 +41,15 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
 
 
 def vortex_centre(positions: np.ndarray[Any, Any], velocities: np.ndarray[Any, Any]) -> tuple[float, float]:
-    """Where the fluid stands still inside the cavity: the centre of a linear fit to the slowest particles."""
+    """Where the fluid stands still inside the cavity: the zero of the linear field that fits best around it."""
     inside = ((positions > 0.25) & (positions < 0.9)).all(axis=1)
     x, v = positions[inside], velocities[inside]
-    slowest = np.argsort((v**2).sum(axis=1))[:12]
-    basis = np.column_stack((np.ones(len(slowest)), x[slowest]))
-    fit = np.linalg.lstsq(basis, v[slowest], rcond=None)[0]
-    centre = np.linalg.solve(fit[1:].T, -fit[0])
+    centre = np.median(x[np.argsort((v**2).sum(axis=1))[:12]], axis=0)
+    for _ in range(3):
+        near = np.argsort(((x - centre) ** 2).sum(axis=1))[:60]
+        basis = np.column_stack((np.ones(len(near)), x[near]))
+        fit = np.linalg.lstsq(basis, v[near], rcond=None)[0]
+        centre = np.clip(np.linalg.solve(fit[1:].T, -fit[0]), 0.25, 0.9)
     return float(centre[0]), float(centre[1])
 
 
