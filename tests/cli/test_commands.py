@@ -141,8 +141,8 @@ def test_several_items_are_a_list_in_the_order_asked_for(sphear: Run) -> None:
     assert [one["item"] for one in found] == ["figure-2", "table-1"]
 
 
-def test_a_paper_with_one_item_needs_no_item(sphear: Run) -> None:
-    assert sphear("reproduce", "basa2009", "--json").json()["item"] == "figure-1"
+def test_one_item_is_one_object(sphear: Run) -> None:
+    assert sphear("reproduce", "basa2009", "figure-1", "--json").json()["item"] == "figure-1"
 
 
 def test_a_paper_is_reproduced_whole_by_default(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -160,12 +160,12 @@ def test_quick_is_handed_on(options: list[str], quick: bool, sphear: Run, monkey
 
     asked, reproduce = [], studies.reproduce
 
-    def recorded(paper: str, item: str, *, quick: bool, progress: Any) -> Any:
+    def recorded(paper: str, item: str, *, quick: bool, **others: Any) -> Any:
         asked.append(quick)
-        return reproduce(paper, item, quick=quick, progress=progress)
+        return reproduce(paper, item, quick=quick, **others)
 
     monkeypatch.setattr(studies, "reproduce", recorded)
-    sphear("reproduce", "basa2009", *options)
+    sphear("reproduce", "basa2009", "figure-1", *options)
     assert asked == [quick]
 
 
@@ -185,5 +185,5 @@ def test_reproduce_writes_figures_tables_and_numbers_of_all_items(sphear: Run, t
 
 
 def test_a_written_item_is_what_json_prints(sphear: Run, tmp_path: Path) -> None:
-    printed = sphear("reproduce", "basa2009", "--json", "--out", "results").json()
+    printed = sphear("reproduce", "basa2009", "figure-1", "--json", "--out", "results").json()
     assert json.loads((tmp_path / "results" / "basa2009-figure-1.json").read_text(encoding="utf-8")) == printed

@@ -68,7 +68,7 @@ def test_an_unknown_item_is_named_with_the_nearest() -> None:
 @pytest.fixture
 def own_store(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     """Runs are kept here and not in the user's folder."""
-    monkeypatch.setattr(import_module("sphear.studies.kept"), "cache_directory", lambda: tmp_path)
+    monkeypatch.setattr(import_module("sphear.engine.cache"), "cache_directory", lambda: tmp_path)
     return tmp_path
 
 

@@ -78,7 +78,7 @@ def _summary(
     """All but the histories, which are in the files of the runs."""
     rows = []
     for run, result in zip(runs, results, strict=True):
-        row = {key: value for key, value in result.as_dict().items() if key not in ("case", "history")}
+        row = {key: value for key, value in result.as_dict().items() if key not in ("case", "history", "profiles")}
         rows.append({"end": row.pop("end"), **row, "file": None if result.lost else f"runs/{run.key}.json"})
     return {"case": runs[0].case, "over": {key: _values(runs, key) for key in over}, "fixed": list(fixed), "runs": rows}
 

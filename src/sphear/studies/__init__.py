@@ -9,7 +9,7 @@ from importlib import import_module
 
 from sphear.errors import SphearError
 from sphear.names import unknown
-from sphear.studies.kept import kept
+from sphear.studies.kept import kept as kept_numbers
 from sphear.studies.result import Progress, StudyResult, no_progress
 
 PAPERS = {
@@ -79,7 +79,9 @@ def reproduce(
     if hasattr(module, "compute"):
         computed = quick or rerun
         where = getattr(module, "KEPT", item)  # figures of the same runs share their numbers
-        data = module.compute(quick=quick, workers=workers, progress=progress) if computed else kept(paper, where)
+        data = (
+            module.compute(quick=quick, workers=workers, progress=progress) if computed else kept_numbers(paper, where)
+        )
         result = module.present(data)
     else:
         result = module.run(quick=quick, progress=progress)

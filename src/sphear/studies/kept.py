@@ -6,7 +6,6 @@ import json
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any, Protocol
 
-from sphear.engine.cache import cache_directory
 from sphear.errors import SphearError
 from sphear.results.finite import finite
 from sphear.studies.result import Progress, StudyResult
@@ -57,6 +56,7 @@ def swept(runs: list[Run], paper: str, workers: int, progress: Progress) -> list
     Raises:
         SphearError: a run was lost.
     """
+    from sphear.engine.cache import cache_directory
     from sphear.sweeps import Store, run_sweep
 
     store = Store(cache_directory() / "runs" / paper)

@@ -49,7 +49,8 @@ class SweepResult:
 
     def as_dict(self) -> dict[str, Any]:
         """All of it, as it is stored."""
-        return asdict(self)
+        whole = asdict(self)
+        return whole if self.profiles else {key: value for key, value in whole.items() if key != "profiles"}
 
 
 def of_record(record: Any) -> SweepResult | None:
