@@ -7,6 +7,8 @@ import ctypes
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of <malloc.h>
 LARGEST = 2**31 - 1
 
+LARGE = 5000  # particles, from which on the arrays of a step are large to the C library
+
 
 def keep_freed_memory() -> None:
     """Let the C library keep what is freed for the next step, where it is glibc.

@@ -42,6 +42,18 @@ def sweep(parameters, far, records, private, own, out, target, entry, first, nei
         {{store}}
 '''
 
+_WEIGHTS = f'''{_HEAD}
+from sphear.engine.weights import lane_storer
+
+store = lane_storer({{width}}, {{outputs}})
+
+
+@njit({{options}})
+def weights(parameters, far, records, private, own, values, entry, first, neighbour, begin, end, origin):
+    """values[c, k] = what the pair k of the list gives, for the rows begin ... end of a chunk."""
+    {_PAIRS_OF_ROW.strip()}
+'''
+
 _BOTH_SIDES = f'''{_HEAD}
 add = record_adder({{width}}, {{sums}})
 
@@ -82,6 +94,19 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
     Lanes beyond a particle's last neighbour are put at a distance `far` outside the support, where every kernel is
     zero, so that the loop needs no remainder.
     """
+    template = _BOTH_SIDES if formula.reverse_outputs else _SWEEP
+    return template.format(**_parts(formula, title, dimension, dtype))
+
+
+def weights_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -> str:
+    """The module that keeps what each pair gives, instead of the sum."""
+    kept = f"store(values, k, ({''.join(f'{x}, ' for x in _in_lanes(formula.pair_outputs))}))"
+    parts = {**_parts(formula, title, dimension, dtype), "zeros": "pass", "accumulate": kept}
+    return _WEIGHTS.format(**parts)
+
+
+def _parts(formula: TracedFormula, title: str, dimension: int, dtype: str) -> dict[str, object]:
+    """What the templates are filled with."""
     axes = range(dimension)
     width = lane_count(dtype)
     others = [f"x{axis}" for axis in axes] + [f"other_{f}_{k}" for f, k in formula.columns]
@@ -94,26 +119,27 @@ def sweep_text(formula: TracedFormula, title: str, dimension: int, dtype: str) -
     ]
     sums = range(len(formula.pair_outputs))
     both = bool(formula.reverse_outputs)
-    return (_BOTH_SIDES if both else _SWEEP).format(
-        sums=len(sums),
-        reverse="".join(f"{x}, " for x in _in_lanes(formula.reverse_outputs)),
-        own_sums=_block([f"sums[i, {k}] += lanes_sum(sum{k})" for k in sums], 8),
-        title=title,
-        width=width,
-        loaded=len(others),
-        dtype=dtype,
-        options=options_text(),
-        parameters=_block([f"p{k} = parameters[{k}]" for k in range(formula.parameter_count)], 4),
-        own=_block(own, 8),
-        zeros=_block([f"sum{k} = zeros()" for k in sums], 8),
-        other="".join(f"{name}, " for name in others),
-        differences=_block(
+    return {
+        "sums": len(sums),
+        "outputs": len(sums),
+        "reverse": "".join(f"{x}, " for x in _in_lanes(formula.reverse_outputs)),
+        "own_sums": _block([f"sums[i, {k}] += lanes_sum(sum{k})" for k in sums], 8),
+        "title": title,
+        "width": width,
+        "loaded": len(others),
+        "dtype": dtype,
+        "options": options_text(),
+        "parameters": _block([f"p{k} = parameters[{k}]" for k in range(formula.parameter_count)], 4),
+        "own": _block(own, 8),
+        "zeros": _block([f"sum{k} = zeros()" for k in sums], 8),
+        "other": "".join(f"{name}, " for name in others),
+        "differences": _block(
             ["d0 = first_lanes(own_x0 - x0, stop - k, far)", *(f"d{a} = own_x{a} - x{a}" for a in axes if a)], 12
         ),
-        square=" + ".join(f"d{a} * d{a}" for a in axes),
-        pair=_block(list(formula.pair_lines), 12),
-        accumulate=_block([f"sum{k} = sum{k} + {x}" for k, x in enumerate(formula.pair_outputs)], 12),
-        total=_block([f"total{k} = sums[i, {k}]" if both else f"total{k} = lanes_sum(sum{k})" for k in sums], 8),
-        finish=_block(list(formula.finish_lines), 8),
-        store=_block([f"out[target[row - origin], {k}] = {x}" for k, x in enumerate(formula.finish_outputs)], 8),
-    )
+        "square": " + ".join(f"d{a} * d{a}" for a in axes),
+        "pair": _block(list(formula.pair_lines), 12),
+        "accumulate": _block([f"sum{k} = sum{k} + {x}" for k, x in enumerate(formula.pair_outputs)], 12),
+        "total": _block([f"total{k} = sums[i, {k}]" if both else f"total{k} = lanes_sum(sum{k})" for k in sums], 8),
+        "finish": _block(list(formula.finish_lines), 8),
+        "store": _block([f"out[target[row - origin], {k}] = {x}" for k, x in enumerate(formula.finish_outputs)], 8),
+    }

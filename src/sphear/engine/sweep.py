@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -30,6 +30,15 @@ FAR = 1.001  # supports: where lanes without a neighbour are put
 @cache
 def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) -> ModuleType:
     return generated_module(sweep_text(formula, title, dimension, dtype))
+
+
+@lru_cache(maxsize=512)
+def _ready(
+    interaction: Interaction, dimension: int, shared: tuple[Shape, ...], own: tuple[Shape, ...], once: bool, dtype: str
+) -> tuple[TracedFormula, Array]:
+    """The traced formula of an interaction and its parameters: looked up in every step of a small flow."""
+    formula = traced(interaction, dimension, shared, own, both_sides=once)
+    return formula, np.array(parameters(interaction) or [0.0], dtype)
 
 
 def shape_of(values: Array) -> Any:
@@ -60,11 +69,17 @@ class Sweep:
     def __post_init__(self) -> None:
         shared = tuple((name, shape_of(values)) for name, values in self.fields.items())
         dimension = self.neighbours.dimension
-        self.formula = traced(self.interaction, dimension, shared, self.own, both_sides=self.each_pair_once)
-        self.module = _compiled(self.formula, type(self.interaction).__name__, dimension, self.dtype)
-        self.parameters = np.array(parameters(self.interaction) or [0.0], self.dtype)
+        interaction: Any = self.interaction  # a frozen dataclass, which is hashable
+        self.formula, self.parameters = _ready(
+            interaction, dimension, shared, self.own, self.each_pair_once, self.dtype
+        )
+        self.module = self._module()
         self.records = self._packed(self.formula.columns, with_position=True)
         self.private = self._packed(self.formula.private)
+
+    def _module(self) -> ModuleType:
+        """The compiled code."""
+        return _compiled(self.formula, type(self.interaction).__name__, self.neighbours.dimension, self.dtype)
 
     def _packed(self, columns: tuple[tuple[str, int], ...], with_position: bool = False) -> Array:
         """The columns, (field, component), of each entry side by side, (entries, columns)."""
@@ -78,7 +93,7 @@ class Sweep:
         # columns of one field with components that follow each other are packed by one copy
         for (name, _), run in groupby(enumerate(columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
             components = [component for _, (_, component) in run]
-            values = self.fields[name].reshape(neighbours.count, -1)
+            values = self.fields[name].reshape(len(self.fields[name]), -1)
             column = pack(records, column, values[:, components[0] : components[-1] + 1], neighbours.source)
         return records
 

@@ -72,6 +72,14 @@ class Domain:
             inside[:, axis] = low + np.mod(inside[:, axis] - low, period)
         return inside
 
+    def shortest(self, ways: FloatArray) -> FloatArray:
+        """Differences of positions (N, d) as those to the nearest periodic image."""
+        found = ways.copy()
+        for axis in self.periodic_axes:
+            period = self.upper[axis] - self.lower[axis]
+            found[:, axis] -= period * np.rint(found[:, axis] / period)
+        return found
+
     def with_images(self, positions: FloatArray, reach: float) -> tuple[FloatArray, np.ndarray[Any, Any]]:
         """Positions and the periodic images within `reach` of the box, and the particle that each one is of.
 

@@ -26,17 +26,19 @@ class Neighbours:
     in memory as well. An *entry* is a particle or one of its periodic images.
 
     Args:
-        positions: (N, d), finite.
+        positions: (N, d) or more, finite.
         support: the distance within which two particles are neighbours.
         domain: None for open space.
         threads: how many threads build and sweep; None takes all processors for many particles, one for few.
         each_pair_once: make the list of pairs listed once, instead of the full one.
         keep_coincident: list pairs at no distance too (of a point of evaluation and a particle) instead of refusing
             them.
+        rows: sums are made for the first so many particles; the others are their neighbours only. None is all.
 
     Attributes:
         coordinates: (d, E + 8), positions of the entries in the order of the cells.
         source: (E,), the particle that each entry is (an image) of.
+        count: N, of the particles that sums are made for.
         entry: (N,), the entry of each row.
         rows: (N,), the particle of each row.
         chunks: all neighbours of each row, for ranges of rows.
@@ -55,8 +57,10 @@ class Neighbours:
         threads: int | None = None,
         each_pair_once: bool = False,
         keep_coincident: bool = False,
+        rows: int | None = None,
     ) -> None:
-        self.count, self.dimension = positions.shape
+        self.dimension = positions.shape[1]
+        self.count = len(positions) if rows is None else rows
         self.support = float(support)
         self.threads = thread_count(threads, self.count)
         entries, source = domain.with_images(positions, self.support) if domain else (positions, None)
@@ -65,7 +69,7 @@ class Neighbours:
         self.coordinates = cells.coordinates
         self.source = cells.order if source is None else source[cells.order]
         self._image = np.zeros(len(cells.order) + PADDING, np.bool_)
-        if source is not None:  # the particles themselves come before their images in `entries`
+        if len(cells.order) > self.count:  # particles summed for come first, and images last in `entries`
             self._image[: len(cells.order)] = cells.order >= self.count
         self.entry = np.flatnonzero(~self._image[: len(cells.order)]).astype(np.int32)
         self.rows = self.source[self.entry]

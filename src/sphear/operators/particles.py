@@ -21,6 +21,32 @@ Array = np.ndarray[Any, Any]
 Fallback = Literal["uncorrected", "nan"]
 
 
+def needing_neighbours(term: ViscousTerm, correction: Correction) -> str:
+    """What of a term with a correction has to be solved for at each particle, and so needs enough neighbours."""
+    return f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
+
+
+def too_few_neighbours(
+    lacking: Array, positions: Array, what: str, first: str, larger: str, fallback: Fallback | None = None
+) -> TooFewNeighboursError:
+    """The error of too few neighbours.
+
+    Args:
+        lacking: the particles that have too few.
+        positions: of all particles, (N, d).
+        what: needs more.
+        first: words between "the first" and the place of the first that lacks them.
+        larger: the setting to enlarge.
+        fallback: that did not help.
+    """
+    place = ", ".join(f"{x:.6g}" for x in positions[lacking[0]])
+    remedy = "" if fallback == "nan" else ", or ask for fallback 'uncorrected' or 'nan'"
+    return TooFewNeighboursError(
+        f"{len(lacking)} of {len(positions)} particles have too few neighbours for {what}, the first {first} ({place}):"
+        f" take a larger {larger}{remedy}"
+    )
+
+
 @dataclass(frozen=True)
 class Particles:
     """Particles whose neighbours are known; made once, operated on many times.
@@ -114,7 +140,7 @@ class Particles:
         def operation(t: ViscousTerm, c: Correction) -> Operation:
             return Operation(getattr(t, stages)(self.kernel, c), t.preparation(self.kernel, c))
 
-        what = f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
+        what = needing_neighbours(term, correction)
         return self.applied(operation(term, correction), operation(*uncorrected(term)), fields, fallback, what)
 
     def applied(
@@ -134,11 +160,7 @@ class Particles:
         )
         lacking = outcome.deficient
         if len(lacking) and fallback is None:
-            place = ", ".join(f"{x:.6g}" for x in self.positions[lacking[0]])
-            raise TooFewNeighboursError(
-                f"{len(lacking)} of {len(self.positions)} particles have too few neighbours for {what}, the first is"
-                f" particle {lacking[0]} at ({place}): take a larger h, or ask for fallback 'uncorrected' or 'nan'"
-            )
+            raise too_few_neighbours(lacking, self.positions, what, f"is particle {lacking[0]} at", "h")
         if fallback == "nan":
             outcome.values[lacking] = np.nan
         return outcome.values
