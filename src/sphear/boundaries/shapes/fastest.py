@@ -1,0 +1,18 @@
+"""How fast the walls of a shape move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sphear.boundaries.shapes.base import Shape
+from sphear.neighbours.domain import Domain
+
+
+def fastest(shape: Shape, spacing: float, window: Domain) -> float:
+    """The greatest speed of the walls of a shape, at points a spacing apart; 0 where nothing moves."""
+    speeds = [0.0]
+    for primitive, _ in shape.primitives():
+        walls = primitive.outline(spacing, window)
+        if len(walls):
+            speeds.append(float(np.hypot(*primitive.wall_velocity(walls).T).max()))
+    return max(speeds)

@@ -1,0 +1,133 @@
+"""A polygon of fluid, whose edges may slide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import hypot
+
+import numpy as np
+
+from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, by_name, plane_vector, text
+from sphear.boundaries.shapes.contours import contour_rows
+from sphear.boundaries.shapes.edges import edge_rows, first_crossing
+from sphear.errors import SphearError
+from sphear.neighbours.domain import Domain
+
+SHORT = 2.0  # spacings: with shorter edges a polygon is a curve, whose rows run on around it
+
+
+@dataclass(frozen=True)
+class Polygon(Primitive):
+    """The fluid in a simple polygon: s = min |x - edge_i|, negative outside.
+
+    At a corner, and where its two edges are equally near, the slower one's velocity counts.
+
+    Args:
+        vertices: three or more, in either orientation.
+        velocities: of the edges that slide, each along itself, by number: edge i begins at vertex i.
+
+    Raises:
+        SphearError: the vertices make no polygon, its edges meet elsewhere, or an edge moves through itself.
+    """
+
+    vertices: Sequence[Vector]
+    velocities: Mapping[int, Vector] | tuple[tuple[int, Vector], ...] = ()
+
+    def __post_init__(self) -> None:
+        given: object = self.vertices
+        if not isinstance(given, Sequence | np.ndarray) or len(given) < 3:
+            raise SphearError(f"a polygon has three or more vertices, not {given!r}")
+        vertices = tuple(plane_vector("a vertex of a polygon", vertex) for vertex in self.vertices)
+        object.__setattr__(self, "vertices", vertices)
+        starts, ends = self._edges()
+        if meeting := first_crossing(starts, ends):
+            i, j = meeting
+            raise SphearError(
+                f"a polygon meets itself nowhere: its edges from {text(vertices[i])} and from {text(vertices[j])} do"
+                if i != j
+                else f"a polygon has no two equal vertices beside each other, as {text(vertices[i])}"
+            )
+        kept = []
+        for edge, value in by_name("the velocities of the edges of a polygon", self.velocities).items():
+            if edge not in range(len(vertices)):
+                raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {edge!r}")
+            velocity = plane_vector(f"the velocity of edge {edge} of a polygon", value)
+            along = ends[edge] - starts[edge]
+            through = velocity[0] * along[1] - velocity[1] * along[0]
+            if abs(through) > ROUNDING * hypot(*velocity) * hypot(*along):
+                raise SphearError(
+                    f"edge {edge} of the polygon moves through the wall at {text(velocity)}: a wall may move only"
+                    " along itself"
+                )
+            kept.append((int(edge), velocity))
+        object.__setattr__(self, "velocities", tuple(sorted(kept)))
+
+    @property
+    def bounds(self) -> tuple[Vector, Vector]:
+        """The least and greatest coordinates of the vertices."""
+        xs, ys = zip(*self.vertices, strict=True)
+        return (min(xs), min(ys)), (max(xs), max(ys))
+
+    def seen_from(self, points: Array) -> Foot:
+        """Distance, normal and velocity of the nearest edge."""
+        starts, ends = self._edges()
+        inward = self._inward(starts, ends)
+        speeds = np.zeros((len(starts), 2))
+        for edge, velocity in dict(self.velocities).items():
+            speeds[edge] = velocity
+        count = len(points)
+        nearest, to_foot = np.full(count, np.inf), np.zeros((count, 2))
+        facing, slow = np.zeros((count, 2)), np.zeros((count, 2))
+        within = np.zeros(count, bool)
+        tiny = ROUNDING * float(np.abs(starts).max())
+        for start, end, normal, speed in zip(starts, ends, inward, speeds, strict=True):
+            along = end - start
+            s = np.clip((points - start) @ along / (along @ along), 0.0, 1.0)[:, None]
+            to = (1.0 - s) * start + s * end - points
+            distance = np.hypot(to[:, 0], to[:, 1])
+            better, equal = distance < nearest - tiny, np.abs(distance - nearest) <= tiny
+            facing[better] = normal
+            facing[equal] += normal
+            slow[better | (equal & ((speed**2).sum() < (slow**2).sum(axis=1)))] = speed
+            to_foot[better] = to[better]
+            nearest = np.where(better, distance, nearest)
+            crosses = (start[1] > points[:, 1]) != (end[1] > points[:, 1])
+            if along[1] != 0.0:
+                within ^= crosses & (points[:, 0] < start[0] + (points[:, 1] - start[1]) * (along[0] / along[1]))
+        sign = np.where(within, 1.0, -1.0)
+        on = nearest <= tiny  # there the bisecting normal of all edges that meet
+        length = np.hypot(facing[:, 0], facing[:, 1])
+        facing = np.where((length > 1e-9)[:, None], facing / np.maximum(length, 1e-9)[:, None], inward[0])
+        away = -sign[:, None] * to_foot / np.where(on, 1.0, nearest)[:, None]
+        return Foot(sign * nearest, np.where(on[:, None], facing, away), slow)
+
+    def outline(self, step: float, window: Domain) -> Array:
+        """Points on the edges, vertices among them."""
+        found = []
+        for start, end in zip(*self._edges(), strict=True):
+            count = max(1, int(np.ceil(np.hypot(*(end - start)) / step)))
+            found.append(start + (np.arange(count) / count)[:, None] * (end - start))
+        return np.concatenate(found)
+
+    def rows(self, spacing: float, depth: float, window: Domain, inverted: bool) -> list[Array]:
+        """Rows behind each edge that share the corners, or contours of the distance if the edges are short."""
+        starts, ends = self._edges()
+        if np.hypot(*(ends - starts).T).min() < SHORT * spacing:
+            return contour_rows(self, spacing, depth, inverted)
+        behind = self._inward(starts, ends) * (1.0 if inverted else -1.0)
+        return edge_rows(starts, ends, behind, lambda x: np.abs(self.distance(x)), spacing, depth)
+
+    def _edges(self) -> tuple[Array, Array]:
+        starts = np.array(self.vertices)
+        return starts, np.roll(starts, -1, axis=0)
+
+    def _inward(self, starts: Array, ends: Array) -> Array:
+        """The unit vector into the polygon of each edge."""
+        along = ends - starts
+        anticlockwise = (starts[:, 0] * ends[:, 1] - starts[:, 1] * ends[:, 0]).sum() > 0
+        left = np.column_stack((-along[:, 1], along[:, 0])) / np.hypot(*along.T)[:, None]
+        return np.asarray(left if anticlockwise else -left)
+
+    def __str__(self) -> str:
+        return f"polygon of {len(self.vertices)} vertices from {text(self.vertices[0])}"
