@@ -1,0 +1,15 @@
+"""Preconditioners of the pressure equation: cheap approximations to the inverse of its matrix."""
+
+from __future__ import annotations
+
+from sphear.names import Registry
+from sphear.pressure.preconditioners.amg import AlgebraicMultigrid
+from sphear.pressure.preconditioners.base import Preconditioner
+from sphear.pressure.preconditioners.grid import Grid
+from sphear.pressure.preconditioners.jacobi import Jacobi
+
+PRECONDITIONERS: Registry[Preconditioner] = Registry("preconditioner")
+for _preconditioner in (Jacobi(), Grid(), AlgebraicMultigrid()):
+    PRECONDITIONERS.add(_preconditioner.name, _preconditioner, _preconditioner.aliases)
+
+__all__ = ["PRECONDITIONERS", "AlgebraicMultigrid", "Grid", "Jacobi", "Preconditioner"]

@@ -1,0 +1,50 @@
+"""Algebraic multigrid: knows the matrix alone, so any geometry will do; its set-up costs more than a solve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.util import find_spec
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from sphear.errors import SphearError
+from sphear.pressure.preconditioners.base import Preconditioner, Vector
+from sphear.pressure.system import PressureSystem
+
+
+@dataclass(frozen=True)
+class AlgebraicMultigrid(Preconditioner):
+    """One V-cycle of Ruge and Stuben's algebraic multigrid, from pyamg.
+
+    Symmetric for symmetric matrices: its smoother is Gauss-Seidel forth and back.
+
+    Raises:
+        SphearError: pyamg is not installed.
+    """
+
+    name = "amg"
+    aliases = ("multigrid", "pyamg", "ruge_stuben")
+    formula = "M = one V-cycle on coarser matrices chosen by the strength of their entries"
+
+    @staticmethod
+    def installed() -> bool:
+        """Whether pyamg can be imported."""
+        return find_spec("pyamg") is not None
+
+    def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
+        """Choose the coarse levels and set them up."""
+        if not self.installed():
+            raise SphearError('the preconditioner amg needs pyamg: pip install "sphear[amg]"')
+        import pyamg
+
+        matrix = csr_matrix(-system.matrix)  # pyamg takes no csr_array, and positive definite matrices
+        matrix.indices, matrix.indptr = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)
+        cycle = pyamg.ruge_stuben_solver(matrix, max_coarse=100).aspreconditioner(cycle="V")
+
+        def apply(vector: Vector) -> Vector:
+            result: Vector = -(cycle @ vector)
+            return result
+
+        return apply

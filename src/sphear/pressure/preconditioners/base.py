@@ -1,0 +1,30 @@
+"""What all preconditioners share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from sphear.pressure.system import PressureSystem
+
+Vector = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True)
+class Preconditioner:
+    """A way to approximate the inverse of the matrix of a pressure equation.
+
+    Matrices are negative definite (or semidefinite), and so must be the approximation: conjugate gradients only ask
+    that both have the same sign. Of a symmetric matrix the approximation is symmetric.
+    """
+
+    name: ClassVar[str]
+    aliases: ClassVar[tuple[str, ...]] = ()
+    formula: ClassVar[str]
+
+    def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
+        """The function that applies M to a vector (n,); M stands for the inverse of the matrix."""
+        raise NotImplementedError

@@ -1,0 +1,23 @@
+"""The diagonal alone: costs nothing, needs iterations in proportion to particles a side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sphear.pressure.preconditioners.base import Preconditioner, Vector
+from sphear.pressure.system import PressureSystem
+
+
+@dataclass(frozen=True)
+class Jacobi(Preconditioner):
+    """The inverse of the diagonal."""
+
+    name = "jacobi"
+    aliases = ("diagonal",)
+    formula = "M = D^-1"
+
+    def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
+        """Divide by the diagonal."""
+        inverse = 1.0 / system.matrix.diagonal()
+        return lambda vector: inverse * vector

@@ -1,0 +1,120 @@
+"""The matrix of the pressure equation against dense arithmetic."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.sparse import csr_array, random_array
+
+from sphear.pressure.assembly import eliminated
+
+Array = np.ndarray[Any, Any]
+
+
+def dense(weights: Array, mirrored: Array | None, jump: Array, fixed: Array, unknowns: int) -> tuple[Array, Array]:
+    """w (p_j - p_i) with p_w = M p + jump; a wall without fluid before it is left out, fixed pressures are zero."""
+    rows = len(weights)
+    fluid, walls = weights[:, :unknowns], weights[:, unknowns:]
+    if mirrored is None:
+        walls = np.zeros_like(walls)
+        mirrored, jump = np.zeros((walls.shape[1], unknowns)), np.zeros(walls.shape[1])
+    walls = np.where((mirrored != 0).any(axis=1), walls, 0.0)
+    matrix = fluid + walls @ mirrored
+    matrix[np.arange(rows), np.arange(rows)] -= fluid.sum(axis=1) + walls.sum(axis=1)
+    known = walls @ jump
+    matrix[:, fixed] = np.where(np.eye(rows, unknowns, dtype=bool)[:, fixed], matrix[:, fixed], 0.0)
+    for row in np.flatnonzero(fixed[:rows]):
+        diagonal = -fluid[row].sum() - walls[row].sum()
+        matrix[row], known[row] = 0.0, 0.0
+        matrix[row, row] = diagonal if diagonal < 0 else -1.0
+    return matrix, known
+
+
+def narrow(matrix: Any) -> csr_array:
+    """As compressed rows with 32-bit indices."""
+    rows = csr_array(matrix)
+    rows.indices, rows.indptr = rows.indices.astype(np.int32), rows.indptr.astype(np.int32)
+    return rows
+
+
+def draw(seed: int, unknowns: int, walls: int, share: float) -> tuple[csr_array, csr_array, Array, Array]:
+    generator = np.random.default_rng(seed)
+    weights = random_array((unknowns, unknowns + walls), density=0.3, rng=generator).tolil()
+    weights.setdiag(0.0)
+    mirrored = random_array((walls, unknowns), density=0.2, rng=generator)
+    rows = narrow(weights)
+    rows.eliminate_zeros()
+    return rows, narrow(mirrored), generator.random(walls), generator.random(unknowns) < share
+
+
+@given(
+    seed=st.integers(0, 999),
+    unknowns=st.integers(2, 25),
+    walls=st.integers(1, 15),
+    share=st.sampled_from([0.0, 0.3, 1.0]),
+    natural=st.booleans(),
+)
+def test_it_is_what_dense_arithmetic_gives(seed: int, unknowns: int, walls: int, share: float, natural: bool) -> None:
+    weights, mirrored, jump, fixed = draw(seed, unknowns, walls, share)
+    given_jump = np.zeros(0) if natural else jump
+    matrix, known = eliminated(weights, None if natural else mirrored, given_jump, fixed, unknowns)
+    expected, right = dense(weights.toarray(), None if natural else mirrored.toarray(), given_jump, fixed, unknowns)
+    np.testing.assert_allclose(matrix.toarray(), expected, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(known, right, rtol=0, atol=1e-12)
+
+
+def test_each_entry_is_written_once_and_the_diagonal_first() -> None:
+    weights, mirrored, jump, fixed = draw(3, 20, 10, 0.2)
+    matrix, _ = eliminated(weights, mirrored, jump, fixed, 20)
+    for row in range(20):
+        columns = matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]]
+        assert columns[0] == row
+        assert len(set(columns.tolist())) == len(columns)
+
+
+@pytest.mark.parametrize("walls", [1, 40])
+def test_there_is_room_for_walls_that_see_much_fluid(walls: int) -> None:
+    """Each row has one neighbour behind a wall, which stands for all the fluid: far more than the pair list has."""
+    unknowns = 60
+    places = np.arange(unknowns), unknowns + np.arange(unknowns) % walls
+    behind = narrow(csr_array((np.ones(unknowns), places), shape=(unknowns, unknowns + walls)))
+    mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) + 0.1)
+    jump, fixed = np.arange(walls, dtype=float), np.zeros(unknowns, bool)
+    matrix, known = eliminated(behind, mirrored, jump, fixed, unknowns)
+    expected, right = dense(behind.toarray(), mirrored.toarray(), jump, fixed, unknowns)
+    assert matrix.nnz == unknowns**2
+    np.testing.assert_allclose(matrix.toarray(), expected, atol=1e-12)
+    np.testing.assert_allclose(known, right, atol=1e-12)
+
+
+def test_rows_sum_to_zero_where_walls_continue_a_constant() -> None:
+    weights, mirrored, jump, fixed = draw(5, 25, 12, 0.0)
+    total = np.asarray(mirrored.sum(axis=1))
+    shares = narrow(mirrored.toarray() / np.where(total > 0, total, 1.0)[:, None])
+    matrix, _ = eliminated(weights, shares, jump, fixed, 25)
+    np.testing.assert_allclose(matrix.sum(axis=1), 0.0, atol=1e-13)
+
+
+def test_a_wall_whose_fluid_weighs_nothing_is_left_out() -> None:
+    """As where a particle is only just within the support of a kernel: rows must sum to zero all the same."""
+    weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 4.0]]))
+    mirrored = csr_array((np.zeros(1), np.zeros(1, np.int32), np.array([0, 1], np.int32)), shape=(1, 2))
+    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    np.testing.assert_array_equal(matrix.toarray(), [[-2.0, 2.0], [2.0, -2.0]])
+    assert not known.any()
+
+
+def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:
+    matrix, known = eliminated(
+        csr_array((np.zeros(0), np.zeros(0, np.int32), np.zeros(3, np.int32)), shape=(2, 2)),
+        None,
+        np.zeros(0),
+        np.array([True, True]),
+        2,
+    )
+    np.testing.assert_array_equal(matrix.toarray(), [[-1.0, 0.0], [0.0, -1.0]])
+    assert not known.any()
