@@ -23,4 +23,6 @@ def checked(what: str = "") -> Iterator[None]:
         if isinstance(own := first.get("ctx", {}).get("error"), SphearError):
             raise own from None
         name = str(first["loc"][0]) if what else str(first["loc"][0]).replace("_", "-")
+        if first["type"] == "extra_forbidden":
+            raise SphearError(f"there is no setting named {name!r}") from None
         raise SphearError(f"{what}{name} {first['msg'].removeprefix('Input ')}, not {first['input']!r}") from None

@@ -16,7 +16,8 @@ from sphear import SphearError
 from sphear.boundaries import Box
 from sphear.cases.flow import FLOWS
 from sphear.checked import checked
-from sphear.schemes.flow import Flow, FlowFailure
+from sphear.schemes.base import FlowFailure
+from sphear.schemes.flow import Flow
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
 from tests.particles import jittered
@@ -29,7 +30,7 @@ PAIRS = [("summation", "squares"), ("continuity", "products")]
 
 
 def channel(resolution: int = 10, **changes: Any) -> tuple[Problem, FlowSettings]:
-    settings = FLOWS["poiseuille"].settings(resolution=resolution, **changes)
+    settings = FLOWS["poiseuille"].explicit(resolution=resolution, **changes)
     return FLOWS["poiseuille"].problem(settings), settings
 
 
@@ -399,6 +400,15 @@ def test_settings_that_contradict_each_other_are_both_named(settings: dict[str, 
         assert f"{name}={value}" in sentence or name in sentence
     assert "\n" not in sentence
     assert not sentence.endswith(".")
+
+
+@pytest.mark.parametrize("case", [None, "poiseuille", "cavity"])
+def test_wrong_settings_are_one_sentence_however_they_are_made(case: str | None) -> None:
+    make: Any = FlowSettings if case is None else FLOWS[case].settings
+    with pytest.raises(SphearError, match=r"^density_diffusion smooths the continuity equation and density=summation"):
+        make(density_diffusion=0.1)
+    with pytest.raises(SphearError, match=r"^the setting reynolds should be greater than 0, not -1$"):
+        make(reynolds=-1)
 
 
 def test_fixed_walls_cannot_mirror_velocities() -> None:

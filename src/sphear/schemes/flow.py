@@ -3,32 +3,28 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numba
 import numpy as np
 
 from sphear.boundaries import WALL_VELOCITIES
-from sphear.engine.memory import keep_freed_memory
+from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.equations_of_state import IdealGas
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, chosen_time_step
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
+from sphear.viscosity import VISCOSITY
 
 Array = np.ndarray[Any, Any]
-
-
-LARGE = 5000  # particles, from which on the arrays of a step are large to the C library
-
-
-class FlowFailure(SphearError):
-    """A run that broke down: when, where and why."""
 
 
 class Flow:
@@ -39,6 +35,7 @@ class Flow:
         settings: how.
 
     Attributes:
+        problem: without the particles at the start.
         time: reached.
         steps: made.
         positions, velocities: (N, d), of the fluid now.
@@ -54,7 +51,7 @@ class Flow:
     def __init__(self, problem: Problem, settings: FlowSettings) -> None:
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
-        _check_start(problem)
+        check_start(problem)
         self.term = arguments.read_viscosity(settings.viscosity)
         self.correction = arguments.read_correction(settings.correction, None)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
@@ -66,7 +63,7 @@ class Flow:
             else settings.sound_speed or morris_sound_speed(problem)
         )
         self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed, self.term.radial)
-        self.time_step = self._time_step()
+        self.time_step = chosen_time_step(self.limits, settings)
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))
         at_start = arrays(settings, problem, chosen, self.kernel, self._energy_at_rest())
@@ -83,6 +80,8 @@ class Flow:
             wall_particles=settings.wall_particles,
             parallel=self.threads > 1,
         )
+        nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
+        self.problem = replace(problem, positions=nothing, velocities=nothing)
 
     def _energy_at_rest(self) -> float:
         return float(IdealGas().energy(self.problem.density, self.settings.initial_pressure))
@@ -124,29 +123,18 @@ class Flow:
 
     def _check_room(self, stages: int) -> None:
         problem, settings = self.problem, self.settings
-        if self.kernel.radius <= problem.spacing:
-            raise SphearError(
-                f"the setting h_over_dx must be more than {self.kernel.h / self.kernel.radius:.4g} for"
-                f" {self.kernel.name}, or no particle has a neighbour, not {self.kernel.h / problem.spacing:.4g}"
-            )
-        supports = "the kernel's support" if stages == 1 else f"{stages} supports of the kernel"
+        reach = stages * self.kernel.radius
+        supports, so = (
+            ("the kernel's support", "reaches") if stages == 1 else (f"{stages} supports of the kernel", "reach")
+        )
         for axis in problem.box.wall_axes:
             width = problem.box.upper[axis] - problem.box.lower[axis]
-            if stages * self.kernel.radius > width:
+            if reach > width:
                 raise SphearError(
                     f"the resolution of {settings.resolution} is too coarse for walls={settings.walls}: {supports} of"
-                    f" {stages * self.kernel.radius:g} reach beyond the width of {width:g} between the walls"
+                    f" {reach:g} {so} beyond the width of {width:g} between the walls"
                 )
-
-    def _time_step(self) -> float:
-        name = min(self.limits, key=self.limits.__getitem__)
-        limit, wanted = self.limits[name], self.settings.time_step
-        if wanted is not None and wanted > limit and not self.settings.force:
-            raise SphearError(
-                f"the time step of {wanted:g} is beyond the {name.replace('_', '-')} limit of {limit:g}: take a smaller"
-                f" one, or --force"
-            )
-        return wanted or limit
+        check_kernel(problem, self.kernel, settings.resolution)
 
     def advance(self, steps: int) -> None:
         """Make steps.
@@ -169,6 +157,30 @@ class Flow:
         if status:
             place = ", ".join(f"{x:.6g}" for x in self._x[worst])
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
+
+    def metrics(self) -> dict[str, float]:
+        """Nothing beside what the case says."""
+        return {}
+
+    def resolved(self) -> dict[str, Any]:
+        """Settings with names and defaults resolved, and numbers that follow from them."""
+        settings = self.settings
+        return {
+            "viscosity": VISCOSITY.name(settings.viscosity),
+            "correction": self.correction.name,
+            "kernel": self.kernel.name,
+            "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
+            "momentum": settings.form,
+            "h_over_dx": self.kernel.h / self.problem.spacing,
+            "sound_speed": self.sound_speed,
+            "time_step": self.time_step,
+            "threads": self.threads,
+            "kinematic_viscosity": self.problem.kinematic_viscosity,
+        }
+
+    def introduction(self) -> str:
+        """The sound speed."""
+        return f"correction {self.settings.correction}, sound speed {self.sound_speed:g}"
 
     def state(self) -> dict[str, Array]:
         """All that a run needs to go on, by name; copies."""
@@ -204,10 +216,3 @@ class Flow:
             if name not in ("clock", "fresh"):
                 values[...] = state[name]
         self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
-
-
-def _check_start(problem: Problem) -> None:
-    for what, values in (("position", problem.positions), ("velocity", problem.velocities)):
-        wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
-        if len(wrong):
-            raise SphearError(f"the initial {what} of particle {wrong[0]} is not a number: {values[wrong[0]]}")

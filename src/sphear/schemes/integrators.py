@@ -12,8 +12,8 @@ CAUSES = {
     1: "too few neighbours for a correction or a fit",
     2: "an acceleration that is not a number; the time step may be too large, or the particles unstable",
     3: "a speed above the speed of sound, where the flow is no longer weakly compressible",
-    4: "a particle went through a wall",
-    5: "a density or an energy that is not positive",
+    4: "a particle went through a wall, as when the time step is too long or particles have lost their order",
+    5: "a density or an energy that is not positive, as when particles run apart",
 }
 
 _CHECKS = '''

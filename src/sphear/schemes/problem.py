@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from sphear.boundaries import Box
+from sphear.boundaries.shapes import Shape
+from sphear.errors import SphearError
 
 Array = np.ndarray[Any, Any]
 
@@ -20,7 +23,7 @@ class Problem:
     """A flow to be computed.
 
     Attributes:
-        positions: (N, d), at the start, of particles that fill the box `spacing` apart.
+        positions: (N, d), at the start, of particles `spacing` apart that fill the box, or the fluid in it.
         velocities: (N, d), at the start.
         box: its sides.
         body_force: on a unit of mass, (d,).
@@ -29,6 +32,9 @@ class Problem:
         kinematic_viscosity: of the fluid.
         speed: the largest speed that is expected.
         length: the length that the Reynolds number is made with.
+        shape: the region of fluid, where its walls are not those of the box alone; for incompressible flow.
+        free_surface: whether the fluid ends at its own surface too; for incompressible flow.
+        force: on a unit of mass, beside the body force, (N, d) at places (N, d) and a time; for incompressible flow.
     """
 
     positions: Array
@@ -40,6 +46,32 @@ class Problem:
     kinematic_viscosity: float
     speed: float
     length: float
+    shape: Shape | None = None
+    free_surface: bool = False
+    force: Callable[[Array, float], Array] | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "positions", _vectors("positions", self.positions))
+        object.__setattr__(self, "velocities", _vectors("velocities", self.velocities))
+        if self.positions.shape != self.velocities.shape:
+            raise SphearError(
+                f"a problem has a velocity for each position, and these are {self.velocities.shape} and"
+                f" {self.positions.shape}"
+            )
+        if np.shape(self.body_force) != (len(self.box.lower),) or not np.isfinite(self.body_force).all():
+            raise SphearError(
+                f"the body force of a problem has {len(self.box.lower)} finite numbers, not {self.body_force!r}"
+            )
+        for name in ("spacing", "density", "kinematic_viscosity", "speed", "length"):
+            value, least = getattr(self, name), name == "kinematic_viscosity"
+            if not (0 <= value < math.inf if least else 0 < value < math.inf):
+                must = "not be negative" if least else "be positive"
+                raise SphearError(f"the {name.replace('_', ' ')} of a problem must {must}, not {value}")
+
+    @property
+    def periodic(self) -> tuple[bool, ...]:
+        """Whether the flow repeats, along each axis."""
+        return tuple(side == "periodic" for side in self.box.sides)
 
     def time_step_limits(self, h: float, sound_speed: float, radial: bool = False) -> dict[str, float]:
         """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997).
@@ -56,6 +88,14 @@ class Problem:
             "viscous": (1 / 12 if radial else 1 / 8) * h**2 / nu if nu > 0 else math.inf,
             "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
         }
+
+
+def _vectors(what: str, given: Any) -> Array:
+    """The places or velocities of particles as an array (N, d)."""
+    found = np.asarray(given)
+    if found.ndim != 2 or not np.issubdtype(found.dtype, np.number):
+        raise SphearError(f"the {what} of a problem are numbers of shape (N, d), not of shape {found.shape}")
+    return found
 
 
 def morris_sound_speed(problem: Problem) -> float:

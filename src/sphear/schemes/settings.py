@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from sphear.errors import SphearError
+from sphear.schemes.common import SchemeSettings
 
 
-class FlowSettings(BaseModel):
+class FlowSettings(SchemeSettings):
     """The settings of a flow; the defaults are those of Basa, Quinlan & Lastiwka (2009), section 6.
 
-    Attributes:
+    Attributes, beside those of all schemes:
+        scheme: "explicit".
         viscosity: name of a viscous term.
         correction: name of a consistency correction of the kernel in the pressure, viscous and continuity sums. The
             density sum stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b) W_ab is
@@ -37,25 +39,15 @@ class FlowSettings(BaseModel):
         transport: "none", "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al. 2013).
         shifting_strength: factor of the shifting.
         background_pressure: of the transport velocity, over density times squared sound speed.
-        initial: "lattice", "staggered" (every other row by half a spacing) or "relaxed" (disordered, then settled).
-        seed: of the disorder.
-        reynolds: as the case defines it.
-        resolution: particles across the flow.
-        until: when to stop, in the time unit of the case; None where the case says.
-        max_steps: stop after so many steps.
         sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %; of an ideal gas
             it follows from `initial_pressure`.
         initial_pressure: of an ideal gas, 125 kPa in the paper.
-        time_step: None takes the least of the CFL, viscous and body-force limits.
-        force: take a time step beyond its limit all the same.
-        threads: that a run computes on; None takes all processors for large flows, one for small.
 
     Raises:
-        SphearError: two settings contradict each other.
+        SphearError: a setting is wrong, or two contradict each other.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
+    scheme: Literal["explicit"] = "explicit"
     viscosity: str = "morris"
     correction: str = "none"
     kernel: str = "cubic_spline"
@@ -74,17 +66,9 @@ class FlowSettings(BaseModel):
     transport: Literal["none", "shifting", "transport_velocity"] = "none"
     shifting_strength: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     background_pressure: float = Field(default=1.0, gt=0, allow_inf_nan=False)
-    initial: Literal["lattice", "staggered", "relaxed"] = "lattice"
-    seed: int = Field(default=0, ge=0)
     reynolds: float = Field(default=0.5, gt=0, allow_inf_nan=False)
-    resolution: int = Field(default=20, ge=1)
-    until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    max_steps: int = Field(default=500_000, ge=1)
     sound_speed: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     initial_pressure: float = Field(default=125e3, gt=0, allow_inf_nan=False)
-    time_step: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    force: bool = False
-    threads: int | None = Field(default=None, ge=1)
 
     @property
     def form(self) -> Literal["squares", "products"]:
@@ -120,3 +104,16 @@ class FlowSettings(BaseModel):
             if contradictory:
                 raise SphearError(sentence)
         return self
+
+    def _idle(self) -> dict[str, tuple[str, bool]]:
+        return {
+            "diffusion_form": ("density_diffusion=0", self.density_diffusion == 0),
+            "shifting_strength": (f"transport={self.transport}", self.transport != "shifting"),
+            "background_pressure": (f"transport={self.transport}", self.transport != "transport_velocity"),
+            "wall_velocity": (f"walls={self.walls}", self.walls == "adami"),
+            "initial_pressure": (
+                f"equation_of_state={self.equation_of_state}",
+                self.equation_of_state != "ideal_gas",
+            ),
+            "seed": (f"initial={self.initial}", self.initial != "relaxed"),
+        }

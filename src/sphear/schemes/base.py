@@ -1,0 +1,165 @@
+"""What all schemes share: the settings and the flow in time that a run is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from sphear.errors import SphearError
+from sphear.names import unknown
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.settings import FlowSettings
+
+if TYPE_CHECKING:
+    from sphear.kernels import Kernel
+    from sphear.schemes.problem import Problem
+
+Settings = FlowSettings | IncompressibleSettings
+
+Array = np.ndarray[Any, Any]
+
+_SETTINGS: dict[str, type[Settings]] = {"explicit": FlowSettings, "incompressible": IncompressibleSettings}
+SCHEMES = tuple(_SETTINGS)
+
+
+class FlowFailure(SphearError):
+    """A run that broke down: when, where and why."""
+
+
+class FlowInTime(Protocol):
+    """A flow in time, by any scheme.
+
+    Attributes:
+        problem: what is computed.
+        kernel: with its smoothing length.
+        time: reached.
+        steps: made.
+        time_step: of the steps.
+        limits: the time steps that each condition allows.
+        threads: that it computes on.
+        count: of particles.
+    """
+
+    problem: Problem
+    kernel: Kernel
+    time: float
+    steps: int
+    time_step: float
+    limits: dict[str, float]
+    threads: int
+    count: int
+
+    @property
+    def positions(self) -> Array:
+        """(N, d)."""
+
+    @property
+    def velocities(self) -> Array:
+        """(N, d)."""
+
+    @property
+    def density(self) -> Array:
+        """(N,)."""
+
+    @property
+    def pressure(self) -> Array:
+        """(N,)."""
+
+    def advance(self, steps: int) -> None:
+        """Make steps."""
+
+    def state(self) -> dict[str, Array]:
+        """All that a run needs to go on, by name; copies."""
+
+    def restore(self, state: dict[str, Array]) -> None:
+        """Go back to a `state`."""
+
+    def metrics(self) -> dict[str, float]:
+        """What is reported of the scheme itself at each output."""
+
+    def resolved(self) -> dict[str, Any]:
+        """Settings with names and defaults resolved, and numbers that follow from them."""
+
+    def introduction(self) -> str:
+        """What is said of the scheme before the first step, in a few words."""
+
+
+def settings_type(scheme: str) -> type[Settings]:
+    """The settings of a scheme.
+
+    Raises:
+        SphearError: there is no such scheme.
+    """
+    if scheme not in _SETTINGS:
+        raise unknown("scheme", scheme, SCHEMES)
+    return _SETTINGS[scheme]
+
+
+def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearError:
+    """The error for a setting that a scheme has not: it is another scheme's, or nobody's."""
+    of = [name for name, kind in _SETTINGS.items() if key in kind.model_fields]
+    if of:
+        return SphearError(f"the setting {key} is one of scheme={of[0]}, and this is scheme={scheme}")
+    return unknown("setting", key, known)
+
+
+def flow_in_time(problem: Problem, settings: Settings) -> FlowInTime:
+    """The flow of a problem by the scheme of the settings.
+
+    Raises:
+        SphearError: they do not go together.
+    """
+    if settings.scheme == "incompressible":
+        from sphear.schemes.incompressible.flow import IncompressibleFlow
+
+        return IncompressibleFlow(problem, settings)
+    from sphear.schemes.flow import Flow
+
+    if problem.shape is not None or problem.free_surface:
+        raise SphearError("the explicit scheme knows the walls of boxes only: take scheme=incompressible")
+    if problem.force is not None:
+        raise SphearError("the explicit scheme knows constant body forces only: take scheme=incompressible")
+    return Flow(problem, settings)
+
+
+def check_start(problem: Problem) -> None:
+    """Refuse a start without particles, or with places or velocities that are no numbers."""
+    if not len(problem.positions):
+        raise SphearError("the problem has no particles")
+    for what, values in (("position", problem.positions), ("velocity", problem.velocities)):
+        wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
+        if len(wrong):
+            raise SphearError(f"the initial {what} of particle {wrong[0]} is not a number: {values[wrong[0]]}")
+
+
+def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
+    """Refuse a kernel that reaches no neighbour, or further than a period."""
+    if kernel.radius <= problem.spacing:
+        raise SphearError(
+            f"the setting h_over_dx must be more than {kernel.h / kernel.radius:.4g} for {kernel.name}, or no particle"
+            f" has a neighbour, not {kernel.h / problem.spacing:.4g}"
+        )
+    for low, high, periodic in zip(problem.box.lower, problem.box.upper, problem.periodic, strict=True):
+        if periodic and kernel.radius > high - low:
+            raise SphearError(
+                f"the resolution of {resolution} is too coarse: the kernel's support of {kernel.radius:g} reaches"
+                f" beyond the period of {high - low:g}"
+            )
+
+
+def chosen_time_step(limits: dict[str, float], settings: Settings) -> float:
+    """The least of the limits, or the one asked for.
+
+    Raises:
+        SphearError: it is beyond a limit and that is not forced.
+    """
+    name = min(limits, key=limits.__getitem__)
+    limit, wanted = limits[name], settings.time_step
+    if wanted is not None and wanted > limit and not settings.force:
+        raise SphearError(
+            f"the time step of {wanted:g} is beyond the {name.replace('_', '-')} limit of {limit:g}: take a smaller"
+            " one, or force it by --set force=true or --force"
+        )
+    return wanted or limit

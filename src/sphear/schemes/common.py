@@ -1,0 +1,76 @@
+"""What can be chosen of a flow by any scheme."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from sphear.checked import checked
+from sphear.errors import SphearError
+from sphear.names import unknown
+
+LEAST_REYNOLDS, LARGEST_REYNOLDS = 1e-100, 1e100  # beyond, squares vanish or overflow
+
+
+class SchemeSettings(BaseModel):
+    """The settings that all schemes have.
+
+    Attributes:
+        initial: "lattice", "staggered" (every other row by half a spacing) or "relaxed" (disordered, then settled).
+        seed: of the disorder.
+        reynolds: as the case defines it.
+        resolution: particles across the flow.
+        until: when to stop, in the time unit of the case; None where the case says.
+        max_steps: stop after so many steps.
+        time_step: None takes the least of the limits.
+        force: take a time step beyond its limit all the same.
+        threads: that a run computes on; None takes all processors for large flows, one for small.
+
+    Raises:
+        SphearError: a setting is unknown or wrong.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    initial: Literal["lattice", "staggered", "relaxed"] = "lattice"
+    seed: int = Field(default=0, ge=0)
+    reynolds: float = Field(default=1.0, gt=0, allow_inf_nan=False)
+    resolution: int = Field(default=20, ge=1)
+    until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    max_steps: int = Field(default=500_000, ge=1)
+    time_step: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    force: bool = False
+    threads: int | None = Field(default=None, ge=1)
+
+    def __init__(self, **settings: Any) -> None:
+        known = type(self).model_fields
+        for key in settings:
+            if key not in known:
+                raise unknown("setting", key, known)
+        with checked("the setting "):
+            super().__init__(**settings)
+
+    @field_validator("reynolds", mode="after")
+    @classmethod
+    def _within_range(cls, reynolds: float) -> float:
+        if not LEAST_REYNOLDS <= reynolds <= LARGEST_REYNOLDS:
+            raise SphearError(
+                f"the setting reynolds should be from {LEAST_REYNOLDS:g} to {LARGEST_REYNOLDS:g}, not {reynolds:g}"
+            )
+        return reynolds
+
+    def without_effect(self) -> list[str]:
+        """What was chosen, not as usual, and changes nothing beside the other settings; a sentence each."""
+        unusual = {
+            name for name in self.model_fields_set if getattr(self, name) != type(self).model_fields[name].default
+        }
+        return [
+            f"{name} has no effect with {beside}"
+            for name, (beside, without) in self._idle().items()
+            if without and name in unusual
+        ]
+
+    def _idle(self) -> dict[str, tuple[str, bool]]:
+        """The setting beside which another has no effect, and whether it is so."""
+        return {}
