@@ -1,0 +1,237 @@
+"""An incompressible flow in time, by projection."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from sphear.corrections import CORRECTIONS
+from sphear.engine.memory import keep_freed_memory
+from sphear.engine.threads import thread_count
+from sphear.errors import SphearError
+from sphear.operators import arguments
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, chosen_time_step
+from sphear.schemes.incompressible.diagnostics import diagnostics
+from sphear.schemes.incompressible.free_surface import along_surface
+from sphear.schemes.incompressible.guard import Guard
+from sphear.schemes.incompressible.pressures import Pressures
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.shifting import drift
+from sphear.schemes.incompressible.sums import Discretisation, Sums
+from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
+from sphear.schemes.problem import Problem
+from sphear.viscosity import VISCOSITY
+
+Array = np.ndarray[Any, Any]
+
+MOVED_BEFORE = {"midpoint": 0.5, "start": 0.0, "intermediate": 0.0}  # share of the step, before forces act
+PRESSURE_AT = {"midpoint": 0.5, "start": 0.0, "intermediate": 1.0}  # share of the step
+COURANT = 0.4  # of smoothing lengths
+STABLE_SHIFTING = 0.25  # smoothing lengths a step and strength: half as much again makes particles clump
+USUAL_ALPHA = 10.0  # alpha over the time step in L / U: 0.01 at the step of 0.001 of Zheng, Ma & Shao (2018)
+
+
+class IncompressibleFlow:
+    """An incompressible flow in time.
+
+    A step predicts velocities from viscosity and body force (Zheng, Ma & Shao 2018, eqs. 7 to 9), finds the pressure
+    that frees them of divergence (eq. 13), and moves particles with the mean of old and new velocity (eqs. 10 to 12);
+    then they are shifted. With `projection=midpoint` they move with the old velocity for half a step before forces act
+    and with the new one for the other half after it, which is the same mean and second order for the pressure's force;
+    with forces of the step's start, vortices gain energy in proportion to the step.
+
+    Args:
+        problem: what is to be computed.
+        settings: how.
+
+    Attributes:
+        time: reached.
+        steps: made.
+        positions, velocities: (N, d).
+        pressure: (N,), at the `pressure_time` and the `pressure_positions`, (N, d).
+        pressures: it, and how it was solved for.
+        discretisation: how fields become sums.
+        limits: the time steps that the CFL, viscous, body-force and shifting conditions allow.
+
+    Raises:
+        SphearError: the settings do not fit the problem or each other.
+    """
+
+    def __init__(self, problem: Problem, settings: IncompressibleSettings) -> None:
+        self.problem, self.settings = problem, settings
+        self.time, self.steps = 0.0, 0
+        check_start(problem)
+        self.term = arguments.read_viscosity(settings.viscosity)
+        correction = arguments.read_correction(settings.correction, self.term)
+        self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
+        check_kernel(problem, self.kernel, settings.resolution)
+        self.count = len(problem.positions)
+        self.threads = thread_count(settings.threads, self.count)
+        viscous = Viscous(self.term, correction, self.kernel, problem.kinematic_viscosity)
+        self.discretisation = Discretisation(problem, settings, self.kernel, viscous, self.threads)
+        self.guard = Guard(problem, self.discretisation.region)
+        self.limits = self._limits()
+        self.time_step = chosen_time_step(self.limits, settings)
+        usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
+        self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
+        self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
+        self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
+        self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
+        self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
+        self.pressure_positions = self.x
+        self._distance: Array | None = None  # of the particles from walls, where it is known already
+
+    @property
+    def positions(self) -> Array:
+        """(N, d)."""
+        return self.x
+
+    @property
+    def velocities(self) -> Array:
+        """(N, d)."""
+        return self.u
+
+    @property
+    def pressure(self) -> Array:
+        """(N,), at the `pressure_time` and the `pressure_positions`."""
+        return self.pressures.fluid
+
+    @property
+    def pressure_time(self) -> float:
+        """Of which time the pressure is: `projection=midpoint` finds it in the middle of a step."""
+        return self.time - (1.0 - PRESSURE_AT[self.settings.projection]) * self.time_step if self.steps else 0.0
+
+    @property
+    def density(self) -> Array:
+        """(N,)."""
+        return np.full(self.count, self.problem.density)
+
+    def _limits(self) -> dict[str, float]:
+        problem, h = self.problem, self.kernel.h
+        limits = problem.time_step_limits(h, 0.0, self.term.radial)
+        limits["cfl"] = COURANT * h / problem.speed
+        if self.settings.shifting == "lind":  # the concentration spreads explicitly
+            limits["shifting"] = STABLE_SHIFTING * h / (self.settings.shifting_strength * problem.speed)
+        if IMPLICIT_SHARE[self.settings.viscous_step]:
+            limits["viscous"] = math.inf
+        return limits
+
+    def advance(self, steps: int) -> None:
+        """Make steps.
+
+        Raises:
+            FlowFailure: the flow broke down; the state is that of the moment.
+        """
+        keep_freed_memory()  # the rows of the pressure equation are large even of small flows
+        for _ in range(steps):
+            try:
+                with np.errstate(all="ignore"):  # what breaks down is no number in the end
+                    self._step()
+            except FlowFailure:
+                raise
+            except SphearError as error:
+                raise FlowFailure(f"the flow failed at t = {self.time:g}: {error}") from None
+
+    def _predicted(self, sums: Sums, time: float) -> Array:
+        """(N, d), the acceleration by viscosity and forces, over the step."""
+        problem = self.problem
+        force = np.array(problem.body_force)
+        if problem.force is not None:
+            force = force + problem.force(sums.places.positions[: self.count], time)
+        share = IMPLICIT_SHARE[self.settings.viscous_step]
+        if not share:
+            acceleration: Array = sums.viscous(self.u) + force
+            return acceleration
+        return self.discretisation.viscous.implicit(share, self.time_step, self.u, force, sums.viscous)
+
+    def _step(self) -> None:
+        step, u = self.time_step, self.u
+        moved = MOVED_BEFORE[self.settings.projection] * step
+        x, distance = self.x, self._distance
+        if moved:
+            x = x + moved * u
+            self.guard.check_speed(self.time, self.x, u)
+            distance = self.guard.put_back(self.time, x, u)
+        sums = self.discretisation.at(x, distance)
+        acceleration = self._predicted(sums, self.time + moved)
+        predicted = u + step * acceleration
+        if self.settings.projection == "intermediate":
+            self.guard.check_speed(self.time, x, predicted)
+            sums = self.discretisation.at(x + step * predicted)
+        self.pressure_positions = sums.places.positions[: self.count]
+        even = sums.even(acceleration)
+        before = sums.slipping(u, -moved) + step * even
+        pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
+        after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
+        x = x + (0.5 * step - moved) * u + 0.5 * step * after
+        if self.drift is not None:
+            shift = step * sums.places.sum(self.drift)
+            shift = shift if sums.surface is None else along_surface(shift, sums.surface)
+            # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
+            slopes = sums.slopes(sums.slipping(after, moved)).reshape(self.count, *[u.shape[1]] * 2)
+            after = after + np.einsum("nab,nb->na", slopes, shift)
+            x = x + shift
+        if not np.isfinite(after + x).all():
+            self.guard.check_speed(self.time, self.x, after)  # before the state is no number
+        self.x, self.u = x, after
+        self.time += step
+        self.steps += 1
+        self.guard.check_speed(self.time, self.x, self.u)
+        self._distance = self.guard.put_back(self.time, self.x, self.u)
+
+    def metrics(self) -> dict[str, float]:
+        """Iterations, residual, divergence, density and distances of particles now."""
+        return diagnostics(self)
+
+    def resolved(self) -> dict[str, Any]:
+        """Settings with names and defaults resolved, and numbers that follow from them."""
+        settings = self.settings
+        return {
+            "viscosity": VISCOSITY.name(settings.viscosity),
+            "correction": CORRECTIONS.name(settings.correction),
+            "gradient_correction": CORRECTIONS.name(settings.gradient_correction),
+            "kernel": self.kernel.name,
+            "laplacian": VISCOSITY.name(settings.laplacian),
+            "preconditioner": self.pressures.preconditioner,
+            "h_over_dx": self.kernel.h / self.problem.spacing,
+            "alpha": self.alpha,
+            "time_step": self.time_step,
+            "threads": self.threads,
+            "kinematic_viscosity": self.problem.kinematic_viscosity,
+        }
+
+    def introduction(self) -> str:
+        """How the pressure is found."""
+        settings = self.settings
+        how = f"preconditioner {settings.preconditioner}, walls {settings.neumann}"
+        return f"pressure to {settings.tolerance:g}, {how}"
+
+    def state(self) -> dict[str, Array]:
+        """All that a run needs to go on, by name; copies."""
+        return {name: np.copy(values) for name, values in self._arrays().items()}
+
+    def _arrays(self) -> dict[str, Array]:
+        return {
+            "clock": np.array([self.time, self.steps]),
+            "x": self.x,
+            "v": self.u,
+            "pressure": self.pressures.fluid,
+            "wall_pressure": self.pressures.on_walls,
+            "pressure_x": self.pressure_positions,
+        }
+
+    def restore(self, state: dict[str, Array]) -> None:
+        """Go back to a `state` of the same problem and settings.
+
+        Raises:
+            SphearError: it is that of another flow.
+        """
+        for name, values in self._arrays().items():
+            if name not in state or np.shape(state[name]) != values.shape:
+                raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
+        self.x, self.u = np.array(state["x"]), np.array(state["v"])
+        self.pressure_positions = np.array(state["pressure_x"])
+        self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])
+        self.time, self.steps, self._distance = float(state["clock"][0]), int(state["clock"][1]), None

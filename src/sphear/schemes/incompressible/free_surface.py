@@ -1,0 +1,129 @@
+"""The free surface of a fluid: which particles lie on it and near it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from sphear.corrections import NoCorrection
+from sphear.errors import SphearError
+from sphear.interactions.free_surface import Concentration, NearSurface, Umbrella
+from sphear.kernels import Kernel
+from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.viscosity.base import LaplacianTerm
+
+Array = np.ndarray[Any, Any]
+
+INNER, SPRAY = 0.97, 0.6  # of a lattice's concentration: above, a particle is inside; below, on the surface
+LENGTH = 1.33  # spacings, of the umbrella
+NOTHING = 1e-9  # of the concentration
+ROUGH = 0.4  # least eigenvalue of the first moment: it is 1 inside, 0.5 on a plane surface, 0.24 at its corner
+WET, DRY = 0.7, 1.0  # spacings from a particle: up to there a point is in the fluid, from there outside
+
+
+class Surface(NamedTuple):
+    """Which particles are on the free surface and near it.
+
+    on: (N,), the outermost particles.
+    near: (N,), with a neighbour on it, themselves included.
+    alone: (N,), without any neighbour, in free flight.
+    rough: (N,), near it and with too few neighbours for corrected gradients.
+    concentration: (N,), over that of a lattice.
+    slope: (N, d), of the concentration: into the fluid.
+    inward: (N, d), unit vectors along it.
+    moment: (N, d, d), sum_j V_j grad W_ij (x) (r_j - r_i).
+    depth: (N,), of particles near it, below the place where the pressure is zero: that is half a spacing outside the
+        outermost particles.
+    """
+
+    on: Array
+    near: Array
+    alone: Array
+    rough: Array
+    concentration: Array
+    slope: Array
+    inward: Array
+    moment: Array
+    depth: Array
+
+
+def check_surface_settings(settings: IncompressibleSettings, laplacian: LaplacianTerm, kernel: Kernel) -> None:
+    """Refuse what does not go with a free surface.
+
+    Raises:
+        SphearError: a wall condition that needs fluid before every wall, or cannot carry weight; a Laplacian that is
+            corrected by neighbours on all sides.
+    """
+    if settings.neumann in ("sfdi", "natural"):
+        why = "needs fluid before every wall" if settings.neumann == "sfdi" else "carries no weight on walls"
+        raise SphearError(f"neumann={settings.neumann} {why}: with a free surface take mirror_points or adami")
+    if laplacian.preparation(kernel, NoCorrection()) is not None:
+        raise SphearError(
+            f"the setting laplacian={settings.laplacian} needs neighbours on all sides: with a free surface take one"
+            " without correction, such as morris"
+        )
+
+
+def surface(places: Places, spacing: float, lattice_sum: float) -> Surface:
+    """The free surface, by the particles' concentration and by who lies under their umbrella against the outside.
+
+    Zheng, Ma & Shao (2018), section 2, combine the particle number density with auxiliary functions of the neighbours'
+    places; the function here is the umbrella of Marrone et al. (2010). A particle is on the surface if its
+    concentration is below 0.97 of a lattice's and nobody is under its umbrella, or if it is below 0.6: spray. Wall
+    particles that are wetted count as neighbours, so that a wall is no surface.
+
+    Args:
+        places: of fluid and walls.
+        spacing: of the particles.
+        lattice_sum: the concentration of a lattice.
+    """
+    kernel, count, dimension = places.kernel, places.count, places.positions.shape[1]
+    found = places.sum(Concentration(kernel))
+    total, slope, moment = found[:, 0], found[:, 1 : dimension + 1], found[:, dimension + 1 :]
+    moment = moment.reshape(count, dimension, dimension)
+    concentration = total / lattice_sum
+    inward = slope / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
+    normals = np.zeros((places.total, dimension))
+    normals[:count] = inward
+    under = places.sum(Umbrella(kernel, LENGTH * spacing), None, inward=normals)[:, 0]
+    on = ((concentration < INNER) & (under < 0.5)) | (concentration < SPRAY)
+    flags = np.zeros(places.total)
+    flags[:count] = on
+    near = on | (places.sum(NearSurface(kernel), None, surface=flags)[:, 0] > 0)
+    alone = total - places.fields["volume"][:count] * kernel.value_at_zero(dimension) < NOTHING
+    rough = near & (np.linalg.eigvalsh(moment)[:, 0] < ROUGH)
+    return Surface(on, near, alone, rough, concentration, slope, inward, moment, _depth(places, on, near, spacing))
+
+
+def _depth(places: Places, on: Array, near: Array, spacing: float) -> Array:
+    """(N,), half a spacing and the distance from the next particle on the surface."""
+    depth = np.full(places.count, 0.5 * spacing)
+    inner = np.flatnonzero(near & ~on)
+    if len(inner):
+        outermost, others = places.positions[: places.count][on], places.positions[inner]
+        if places.domain is not None:
+            outermost = places.domain.with_images(outermost, places.kernel.radius)[0]
+            others = places.domain.wrapped(others)
+        depth[inner] += cKDTree(outermost).query(others)[0]
+    return depth
+
+
+def wetted(points: Array, fluid: Array, spacing: float) -> Array:
+    """How far points lie in the fluid, from 0, a spacing from the nearest particle, to 1, at 0.7, (W,).
+
+    A wall particle whose mirror point is outside the fluid stands for no fluid, and nobody may count it.
+    """
+    distance = np.asarray(cKDTree(fluid).query(points)[0]) / spacing
+    result: Array = np.clip((DRY - distance) / (DRY - WET), 0.0, 1.0)
+    return result
+
+
+def along_surface(shift: Array, found: Surface) -> Array:
+    """Shifts (N, d) without their part across the surface near it, and none on it (Lind et al. 2012)."""
+    across = (shift * found.inward).sum(axis=1, keepdims=True) * found.inward
+    result = np.where(found.near[:, None], shift - across, shift)
+    result[found.on] = 0.0
+    return result

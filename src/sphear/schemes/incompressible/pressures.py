@@ -1,0 +1,137 @@
+"""The pressure of a step: its source, the solve, and its values behind walls."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sphear.corrections import NoCorrection
+from sphear.errors import SphearError
+from sphear.kernels import Kernel
+from sphear.operators import arguments
+from sphear.pressure import PRECONDITIONERS, solve
+from sphear.schemes.incompressible.free_surface import check_surface_settings
+from sphear.schemes.incompressible.projection import PressureRows
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.sums import Sums
+from sphear.schemes.incompressible.walls import Walls
+from sphear.schemes.problem import Problem
+from sphear.viscosity.base import LaplacianTerm
+
+Array = np.ndarray[Any, Any]
+
+
+def pressure_laplacian(problem: Problem, settings: IncompressibleSettings, kernel: Kernel) -> LaplacianTerm:
+    """The viscous term whose Laplacian the pressure equation has.
+
+    Raises:
+        SphearError: it is none, or does not go with a free surface.
+    """
+    laplacian, plain = arguments.read_viscosity(settings.laplacian), NoCorrection()
+    if (
+        not isinstance(laplacian, LaplacianTerm)
+        or len(laplacian.laplacian_stages(kernel, plain)) > 1
+        or not laplacian.of_differences(plain)
+    ):
+        raise SphearError(
+            "the setting laplacian must be a viscous term that is the Laplacian of each component, in one sum of"
+            f" differences, not {laplacian.name!r}"
+        )
+    if problem.free_surface:
+        check_surface_settings(settings, laplacian, kernel)
+    return laplacian
+
+
+class Pressures:
+    """The pressure, kept as the next step's first guess.
+
+    Args:
+        problem: what is computed.
+        settings: how.
+        kernel: with its smoothing length.
+        walls: the wall particles; None without walls.
+        alpha: share of the density in the source.
+
+    Attributes:
+        fluid: (N,).
+        on_walls: (S,), of particles on walls that have one of their own.
+        iterations, residual: of the last solve.
+
+    Raises:
+        SphearError: the Laplacian cannot be that of a pressure, or there is no such preconditioner.
+    """
+
+    def __init__(
+        self, problem: Problem, settings: IncompressibleSettings, kernel: Kernel, walls: Walls | None, alpha: float
+    ) -> None:
+        laplacian = pressure_laplacian(problem, settings, kernel)
+        self.preconditioner = PRECONDITIONERS.name(settings.preconditioner)
+        self.density, self.spacing = problem.density, problem.spacing
+        self.alpha, self.tolerance = alpha, settings.tolerance
+        self.walls = walls
+        self.rows = PressureRows(laplacian, kernel, walls, settings.neumann, problem.box, problem.spacing)
+        self.fluid = np.zeros(len(problem.positions))
+        self.on_walls = np.zeros(self.rows.on_wall)
+        self.iterations, self.residual = 0, 0.0
+
+    def solve(self, sums: Sums, velocities: Array, accelerations: Array, time_step: float, later: float = 0.0) -> Array:
+        """(N + W,), the pressure that frees velocities of divergence and particles of crowding.
+
+        Args:
+            sums: at the places of the projection.
+            velocities: (N + W, d), predicted.
+            accelerations: (W, d), that the pressure balances at walls.
+            time_step: of the step.
+            later: for how long particles then move with the new velocities, until these are free of divergence.
+
+        Raises:
+            SphearError: there is no solution, or none was found.
+        """
+        if self.walls is not None:  # what turns a wall turns the fluid at it, by the pressure
+            accelerations = accelerations - 2.0 * later / time_step * self.walls.accelerations
+        source, found = self._source(sums, velocities, time_step, later), sums.surface
+        if found is not None:
+            source[found.alone] = 0.0
+        jump = self.rows.jump(accelerations, self.density, sums.ways())
+        equation = self.rows.equation(sums.places, sums.rows, jump, found)
+        right = np.concatenate((source[equation.order], self._wall_source(accelerations))) - equation.known
+        guess = np.concatenate((self.fluid[equation.order], self.on_walls))
+        solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance)
+        self.iterations, self.residual = solution.iterations, solution.residual
+        count = len(self.fluid)
+        self.fluid = np.empty(count)
+        self.fluid[equation.order] = solution.values[:count]
+        self.on_walls = solution.values[count:]
+        return self._with_walls(sums, jump)
+
+    def _source(self, sums: Sums, velocities: Array, step: float, later: float) -> Array:
+        """(N,), (1 - alpha) rho div u / dt - alpha (rho_particles - rho) / dt^2."""
+        source = (1.0 - self.alpha) * self.density * sums.divergence(velocities, later) / step
+        if self.alpha:
+            crowding = sums.concentration() - 1.0
+            if sums.surface is not None:  # a neighbourhood that ends at the surface is not thin
+                near = sums.surface.near
+                crowding[near] = np.maximum(crowding[near], 0.0)
+            source -= self.alpha * self.density * crowding / step / step
+        return source
+
+    def _wall_source(self, accelerations: Array) -> Array:
+        """(S,), n . grad p = rho n . a over the spacing, at particles on walls that have a pressure of their own."""
+        on, walls = self.rows.on_wall, self.walls
+        if not on or walls is None:
+            return np.zeros(0)
+        slope = (accelerations[:on] * walls.normals[:on]).sum(axis=1)
+        result: Array = self.density * slope / self.spacing
+        return result
+
+    def _with_walls(self, sums: Sums, jump: Array) -> Array:
+        """(N + W,), the pressure of the fluid and of wall particles."""
+        if sums.rows is None:
+            return self.fluid
+        if self.rows.nearest is not None:
+            behind = self.rows.nearest @ self.on_walls
+            behind[self.rows.on_wall :] += jump
+            return np.concatenate((self.fluid, behind))
+        mirrored = sums.rows.mirrored @ self.fluid
+        return np.concatenate((self.fluid, mirrored + jump if len(jump) else mirrored))

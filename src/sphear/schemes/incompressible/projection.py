@@ -1,0 +1,150 @@
+"""The pressure equation of a projection step."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array, vstack
+
+from sphear.boundaries import Box
+from sphear.corrections import NoCorrection
+from sphear.interactions.free_surface import LaplacianMoments
+from sphear.interactions.laplacian_weights import LaplacianWeights
+from sphear.kernels import Kernel
+from sphear.pressure import PressureSystem
+from sphear.pressure.assembly import eliminated
+from sphear.schemes.incompressible.free_surface import Surface
+from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.surface_pressure import missing_weights
+from sphear.schemes.incompressible.walls import WallRows, Walls
+from sphear.viscosity.base import LaplacianTerm
+
+Array = np.ndarray[Any, Any]
+
+
+class Equation(NamedTuple):
+    """A pressure equation, its unknowns in the order of the cells.
+
+    system: the matrix.
+    known: what the walls' normal gradients add to the matrix's side.
+    order: (N,), the particle of each row; particles on walls follow.
+    """
+
+    system: PressureSystem
+    known: Array
+    order: Array
+
+
+class PressureRows:
+    """How the pressure equation is put together, step by step.
+
+    Args:
+        term: its Laplacian.
+        kernel: with its smoothing length.
+        walls: None without walls.
+        neumann: how walls enter it, see `IncompressibleSettings`.
+        box: around the fluid.
+        spacing: of the particles.
+    """
+
+    def __init__(
+        self,
+        term: LaplacianTerm,
+        kernel: Kernel,
+        walls: Walls | None,
+        neumann: str,
+        box: Box,
+        spacing: float,
+    ) -> None:
+        self.weights = LaplacianWeights(term, kernel, NoCorrection())
+        self.moments = LaplacianMoments(term, kernel, NoCorrection())
+        self.preparation = term.preparation(kernel, NoCorrection())
+        self.walls, self.neumann, self.box, self.spacing = walls, neumann, box, spacing
+        self.periodic = tuple(side == "periodic" for side in box.sides)
+        pairwise = self.preparation is None
+        self.symmetric = pairwise and (walls is None or neumann == "natural")
+        self.on_wall = walls.on_wall if walls is not None and neumann == "sfdi" else 0
+        self.nearest = walls.nearest_on_wall() if self.on_wall and walls is not None else None
+
+    def jump(self, accelerations: Array, density: float, ways: Array) -> Array:
+        """(W,), p_w minus the pressure it is continued from, -w . grad p over the way w between the two.
+
+        Args:
+            accelerations: (W, d), grad p over the density: that the pressure balances at the walls.
+            density: of the fluid.
+            ways: (W, d), w of mirrored pressures; with sfdi the wall's is continued, over the depth.
+        """
+        walls = self.walls
+        if walls is None or self.neumann == "natural":
+            return np.zeros(0)
+        if self.neumann == "sfdi":
+            ways = walls.depths[:, None] * walls.normals
+        jump: Array = -density * (accelerations * ways).sum(axis=1)
+        return jump[self.on_wall :] if self.neumann == "sfdi" else jump
+
+    def equation(self, places: Places, rows: WallRows | None, jump: Array, found: Surface | None) -> Equation:
+        """The equation at these places.
+
+        Args:
+            places: of fluid and walls.
+            rows: what the fluid says of the walls' fields.
+            jump: of pressures behind walls.
+            found: the free surface; None without one.
+        """
+        count, order = places.count, places.neighbours.rows
+        unknowns = count + self.on_wall
+        column = np.arange(places.total, dtype=np.int32)
+        column[order] = np.arange(count, dtype=np.int32)
+        weights = places.matrix(self.weights, self.preparation, column, places.total)
+        mirrored = self._mirrored(rows, column, unknowns)
+        fixed = np.zeros(unknowns, np.bool_)
+        outside = np.zeros(count)
+        if found is not None:
+            outside = missing_weights(places, found, self.moments, self.preparation)
+            fixed[:count] = found.alone[order]
+        matrix, known = eliminated(weights, mirrored, jump, fixed, unknowns)
+        matrix.data[matrix.indptr[:count]] += outside[order]  # the diagonal comes first
+        positions = places.positions[order]
+        if self.on_wall and self.walls is not None:
+            matrix, positions = self._with_walls(matrix, positions, places, column)
+            known = np.concatenate((known, np.zeros(self.on_wall)))
+        system = PressureSystem(
+            matrix,
+            positions,
+            self.box.lower,
+            self.box.upper,
+            self.periodic,
+            self.spacing,
+            self.symmetric,
+            not (fixed.any() or outside.any()),
+        )
+        return Equation(system, known, order)
+
+    def _mirrored(self, rows: WallRows | None, column: Array, unknowns: int) -> csr_array | None:
+        """The pressures behind walls as sums over the unknowns."""
+        if rows is None or self.walls is None or self.neumann == "natural":
+            return None
+        if self.neumann == "sfdi":
+            assert self.nearest is not None
+            behind = self.nearest[self.on_wall :]
+            places = (behind.indices + (column.size - self.walls.count)).astype(np.int32)
+            starts = behind.indptr.astype(np.int32)
+            return csr_array((behind.data, places, starts), shape=(behind.shape[0], unknowns))
+        mirrored = rows.mirrored
+        return csr_array(
+            (mirrored.data, column[mirrored.indices], mirrored.indptr), shape=(mirrored.shape[0], unknowns)
+        )
+
+    def _with_walls(
+        self, matrix: csr_array, positions: Array, places: Places, column: Array
+    ) -> tuple[csr_array, Array]:
+        """The rows of the particles on walls below: n . grad p, over the spacing, so that all rows are of one size."""
+        assert self.walls is not None
+        count, on = places.count, self.on_wall
+        fluid = places.positions[:count]
+        derivative = self.walls.normal_derivatives(fluid, column[: count + on], count + on) / self.spacing
+        total: Array = np.asarray(derivative.sum(axis=1)).ravel()
+        own = csr_array((-total, np.arange(count, count + on), np.arange(on + 1)), shape=(on, count + on))
+        whole = vstack((matrix, derivative + own), format="csr")
+        return csr_array(whole), np.concatenate((positions, self.walls.dummies.positions[:on]))

@@ -1,0 +1,115 @@
+"""The region of fluid of a problem, and the wall particles around it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries import Box
+from sphear.boundaries.shapes import Dummies, Rectangle, Shape, check_room, dummies, repeated
+from sphear.errors import SphearError
+from sphear.kernels import Kernel
+from sphear.neighbours import Domain
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.walls import Walls
+from sphear.schemes.problem import Problem
+
+Array = np.ndarray[Any, Any]
+
+LITTLE = 1e-4  # spacings along a wall
+FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
+
+
+def region(problem: Problem) -> Shape | None:
+    """The region of fluid: the problem's own, or that between the walls of its box; None without walls."""
+    shape = problem.shape if problem.shape is not None else between_walls(problem.box)
+    if problem.shape is None or shape is None:
+        return shape
+    return repeated(shape, Domain(problem.box.lower, problem.box.upper, problem.periodic))
+
+
+def between_walls(box: Box) -> Shape | None:
+    """The region between the walls of a box; None where all its sides are periodic.
+
+    Raises:
+        SphearError: the box has walls and is not plane.
+    """
+    if not box.wall_axes:
+        return None
+    if len(box.lower) != 2:
+        raise SphearError(f"walls of incompressible flows are in two dimensions, not in {len(box.lower)}")
+    names = {(0, 0): "left", (0, 1): "right", (1, 0): "lower", (1, 1): "upper"}
+    moving = {(box.wall_axes[-1], 0): box.lower_velocity, (box.wall_axes[-1], 1): box.upper_velocity}
+    endless = [side == "periodic" for side in box.sides]
+    (left, lower), (right, upper) = (
+        tuple(sign * math.inf if free else x for x, free in zip(corner, endless, strict=True))
+        for sign, corner in ((-1.0, box.lower), (1.0, box.upper))
+    )
+    velocities = {
+        names[side]: (float(velocity[0]), float(velocity[1])) for side, velocity in moving.items() if velocity
+    }
+    return Rectangle((left, lower), (right, upper), velocities=velocities)
+
+
+def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel, supports: int) -> Walls | None:
+    """The wall particles, as deep as the kernel reaches; None without walls.
+
+    Args:
+        problem: the flow.
+        settings: what is chosen of it.
+        kernel: with its smoothing length.
+        supports: how many supports of the kernel a sum reaches.
+
+    Raises:
+        SphearError: there is no room for the fluid.
+    """
+    shape = problem.shape if problem.shape is not None else between_walls(problem.box)
+    if shape is None:
+        return None
+    window = Domain(problem.box.lower, problem.box.upper, problem.periodic)
+    dx = problem.spacing
+    check_room(shape, dx, supports * kernel.radius, window, kernel.radius)
+    behind = dummies(shape, dx, math.ceil(supports * kernel.radius / dx) * dx, window)
+    if settings.neumann == "sfdi":
+        behind = _with_row_on_walls(behind, dx)
+    domain = window if any(problem.periodic) else None
+    return Walls(
+        behind,
+        dx,
+        kernel,
+        domain,
+        settings.wall_velocity,
+        settings.neumann == "adami",
+        problem.free_surface,
+        accelerations(repeated(shape, window), behind, dx),
+    )
+
+
+def accelerations(whole: Shape, behind: Dummies, spacing: float) -> Array:
+    """(W, d): (u . grad) u of the walls at the feet of dummies, which is that of a wall that turns, else zero.
+
+    From the velocities of the wall a little ahead and behind, along it.
+    """
+    speed = np.hypot(*behind.velocities.T)
+    fastest = float(speed.max(initial=0.0))
+    if not fastest:
+        return np.zeros_like(behind.velocities)
+    time = LITTLE * spacing / fastest
+    ahead, past = (whole.wall_velocity(behind.feet + way * time * behind.velocities) for way in (1.0, -1.0))
+    moving = (speed > 0)[:, None]
+    result: Array = np.where(moving, (ahead - past) / (2.0 * time), 0.0)
+    return result
+
+
+def _with_row_on_walls(behind: Dummies, dx: float) -> Dummies:
+    """The dummies after particles on the walls, at the feet of the first row."""
+    first = behind.depths < FIRST_ROW * dx
+    feet = behind.feet[first]
+    return Dummies(
+        np.concatenate((feet, behind.positions)),
+        np.concatenate((np.zeros(len(feet)), behind.depths)),
+        np.concatenate((behind.normals[first], behind.normals)),
+        np.concatenate((behind.velocities[first], behind.velocities)),
+    )

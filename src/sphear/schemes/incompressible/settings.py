@@ -1,0 +1,92 @@
+"""What can be chosen of an incompressible flow."""
+
+from __future__ import annotations
+
+from typing import Literal, Self
+
+from pydantic import Field, model_validator
+
+from sphear.errors import SphearError
+from sphear.schemes.common import SchemeSettings
+
+
+class IncompressibleSettings(SchemeSettings):
+    """The settings of an incompressible flow; the defaults are what was found best (docs/incompressible.md).
+
+    Those of Zheng, Ma & Shao (2018) are the preset `paper`.
+
+    Attributes, beside those of all schemes:
+        scheme: "incompressible".
+        viscosity: name of a viscous term.
+        correction: of the viscous term; one with a correction of its own takes no other.
+        kernel: name of a kernel.
+        h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
+        gradient: of the pressure, from "differences" p_j - p_i or "symmetric", p_j + p_i (eq. 3), which conserves
+            momentum.
+        gradient_correction: name of the correction of gradient and divergence.
+        laplacian: the viscous term whose Laplacian the pressure equation has; "morris" is eq. 14.
+        alpha: share of the density in the source of the pressure equation (eq. 13); the rest is that of the
+            divergence. Crowding decays in the time dt / alpha. None takes 10 U dt / L, which is the paper's 0.01 at its
+            time step of 0.001.
+        projection: where particles are when forces act on them: half a step on, at the "midpoint"; at the "start" of
+            the step; or there for viscosity and at the "intermediate" places r* = r + u* dt (eq. 9) for pressure, which
+            takes one neighbour search more.
+        neumann: how walls enter the pressure equation: dummy particles with the pressure at their "mirror_points", or
+            that of the fluid before them ("adami", 2012), both continued with the normal gradient; particles on the
+            wall with equations of their own ("sfdi", as in the paper); or "natural", by leaving them out.
+        wall_velocity: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic".
+        slip: dummy particles have the fluid's own velocity along the wall in the divergence, instead of the continued.
+        shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009).
+        shifting_strength: factor of the shifting, 1 for that of its source; half of it keeps particles as regular and
+            costs half the energy.
+        solid: walls of your own: "none", or a shape in the fluid that is no fluid, as in "Circle((0.3, 0.5), 0.1)", see
+            `sphear.boundaries.shapes.written`. A case around one is compared with no reference.
+        viscous_step: "explicit", "crank_nicolson" or "backward_euler"; these two have no viscous limit.
+        preconditioner: of the pressure equation, "grid", "amg" or "jacobi".
+        tolerance: relative residual of the pressure equation.
+        time_step: None takes the least of the CFL, viscous, body-force and shifting limits.
+
+    Raises:
+        SphearError: two settings contradict each other.
+    """
+
+    scheme: Literal["incompressible"] = "incompressible"
+    viscosity: str = "fatehi_manzari"
+    correction: str = "none"
+    kernel: str = "wendland_c2"
+    h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    gradient: Literal["differences", "symmetric"] = "differences"
+    gradient_correction: str = "renormalised"
+    laplacian: str = "morris"
+    alpha: float | None = Field(default=None, ge=0, le=1)
+    projection: Literal["midpoint", "intermediate", "start"] = "midpoint"
+    neumann: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
+    wall_velocity: Literal["mirror", "linear", "quadratic"] = "quadratic"
+    slip: bool = True
+    shifting: Literal["none", "lind", "xu"] = "lind"
+    shifting_strength: float = Field(default=0.5, gt=0, allow_inf_nan=False)
+    solid: str = "none"
+    viscous_step: Literal["explicit", "crank_nicolson", "backward_euler"] = "explicit"
+    preconditioner: str = "grid"
+    tolerance: float = Field(default=1e-4, gt=0, lt=1)
+    reynolds: float = Field(default=100.0, gt=0, allow_inf_nan=False)
+    resolution: int = Field(default=50, ge=1)
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.gradient == "symmetric" and self.gradient_correction != "none":
+            raise SphearError(
+                f"gradient=symmetric conserves momentum and gradient_correction={self.gradient_correction} does not:"
+                " take gradient=differences or gradient_correction=none"
+            )
+        if self.solid != "none":
+            from sphear.boundaries.shapes import written
+
+            written(self.solid)
+        return self
+
+    def _idle(self) -> dict[str, tuple[str, bool]]:
+        return {
+            "shifting_strength": ("shifting=none", self.shifting == "none"),
+            "seed": (f"initial={self.initial}", self.initial != "relaxed"),
+        }

@@ -1,0 +1,64 @@
+"""Where particles are moved beside the flow, so that they stay evenly spread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from sphear.algebra import Scalar, Vector, dot, scale, sqrt, where_less
+from sphear.interactions import Part, Rates, Shifting
+from sphear.kernels import Kernel
+
+XU_STRENGTH = 0.04  # C of the source, which takes 0.01 to 0.1
+
+
+@dataclass(frozen=True)
+class XuShifting(Part):
+    """The drift C U R_i, R_i = sum_j (rbar_i / r_ij)^2 r_ij / r_ij, rbar_i the mean of the r_ij; at most U / 2.
+
+    Xu, Stansby & Laurence 2009, Accuracy and stability in incompressible SPH based on the projection method and a new
+    approach, J. Comput. Phys. 228:6703, eqs. 31 to 34, over the time step.
+
+    Args:
+        kernel: its support is where neighbours are counted.
+        strength: C.
+        speed: U, the largest expected.
+    """
+
+    kernel: Kernel
+    strength: float
+    speed: float
+
+    role = "drift"
+
+    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
+        """The pair's part of R and of the mean distance."""
+        # a particle without volume, on a wall, counts for nothing
+        near = where_less(r2, self.kernel.radius**2, other.volume / own.volume, 0.0)
+        r = sqrt(r2)
+        return tuple(0.0 for _ in d), (scale(near / (r2 * r), d), near * r, near)
+
+    def finish(self, own: Any, sums: Any) -> Vector:
+        """The drift, limited."""
+        direction, distances, number = sums
+        mean = distances / where_less(0.5, number, number, 1.0)
+        wanted = scale(self.strength * self.speed * mean * mean, direction)
+        size, most = sqrt(dot(wanted, wanted)), 0.5 * self.speed
+        return scale(where_less(most, size, most / where_less(most, size, size, 1.0), 1.0), wanted)
+
+
+def drift(shifting: str, kernel: Kernel, strength: float, speed: float, spacing: float) -> Rates | None:
+    """The interaction whose result is the velocity with which particles are shifted; None for none.
+
+    Args:
+        shifting: "none", "lind" or "xu".
+        kernel: with its smoothing length.
+        strength: over that of the sources.
+        speed: the largest expected.
+        spacing: of the particles.
+    """
+    if shifting == "none":
+        return None
+    if shifting == "xu":
+        return Rates((XuShifting(kernel, XU_STRENGTH * strength, speed),))
+    return Rates((Shifting(kernel, strength, speed, spacing),))

@@ -1,0 +1,114 @@
+"""The viscous acceleration of a step, explicit or implicit, by any viscous term."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.sparse.linalg import LinearOperator, bicgstab
+
+from sphear.corrections import Correction
+from sphear.errors import SphearError
+from sphear.kernels import Kernel
+from sphear.schemes.incompressible.places import Places
+from sphear.viscosity import ViscousTerm
+from sphear.viscosity.base import uncorrected
+
+Array = np.ndarray[Any, Any]
+
+IMPLICIT_SHARE = {"explicit": 0.0, "crank_nicolson": 0.5, "backward_euler": 1.0}
+TOLERANCE, MOST = 1e-8, 500  # of the implicit equation
+
+
+class Viscous:
+    """nu lap u, or whatever a viscous term makes of it.
+
+    Args:
+        term: the viscous term.
+        correction: of the kernel.
+        kernel: with its smoothing length.
+        kinematic_viscosity: nu.
+    """
+
+    def __init__(self, term: ViscousTerm, correction: Correction, kernel: Kernel, kinematic_viscosity: float) -> None:
+        self.term, self.kinematic_viscosity = term, kinematic_viscosity
+        self.stages = term.acceleration_stages(kernel, correction)
+        self.preparation = term.preparation(kernel, correction)
+        plain, without = uncorrected(term)
+        self.plain = plain.acceleration_stages(kernel, without)
+
+    @property
+    def of_all(self) -> bool:
+        """Whether a sum knows sums of its neighbours, so that wall particles need theirs too."""
+        return len(self.stages) > 1
+
+    def acceleration(self, places: Places, velocities: Array, count: int, near: Array | None = None) -> Array:
+        """(N, d).
+
+        Corrections need neighbours on all sides: of particles with too few, and near a free surface, it is the
+        acceleration by the term without its correction, or by Morris's. Missing neighbours leave the surface without
+        stress there.
+
+        Args:
+            places: of the N particles and walls; of both as particles where `of_all`.
+            velocities: (N + W, d), of the fluid and, continued, behind walls.
+            count: N.
+            near: (N,), which particles are near a free surface; None without one.
+        """
+        fields: dict[str, Array] = {
+            "velocity": velocities,
+            "density": np.ones(places.total),
+            "dynamic_viscosity": np.full(places.total, self.kinematic_viscosity),
+        }
+        lacking = np.empty(0, np.int64)
+        if self.preparation is not None:
+            lacking = places.deficient(self.preparation)
+            lacking = lacking if near is None else np.union1d(lacking, np.flatnonzero(near))
+        for stage, plain in zip(self.stages, self.plain, strict=True):
+            result = places.sum(stage, self.preparation, **fields)
+            if len(lacking):
+                result[lacking] = places.sum(plain, None, **fields)[lacking]
+            fields["before"] = result
+        return fields["before"][:count]
+
+    def implicit(
+        self,
+        share: float,
+        time_step: float,
+        velocities: Array,
+        body_force: Array,
+        acceleration: Callable[[Array], Array],
+    ) -> Array:
+        """The acceleration of a step whose viscous part is, by `share`, that at its end and for the rest at its start.
+
+        u* - share dt nu lap u* = u + (1 - share) dt nu lap u + dt f, by BiCGSTAB; the operator is the term's own sum.
+
+        Args:
+            share: 1/2 is Crank-Nicolson, 1 backward Euler.
+            time_step: dt.
+            velocities: (N, d), u.
+            body_force: (d,) or (N, d), f.
+            acceleration: (N, d) of velocities (N, d): affine, because walls have velocities of their own.
+
+        Raises:
+            SphearError: the solution did not converge.
+        """
+        shape, step = velocities.shape, share * time_step
+        still = acceleration(np.zeros(shape))
+        explicit = acceleration(velocities)
+        right = velocities + time_step * ((1.0 - share) * explicit + share * still + body_force)
+
+        def apply(flat: Array) -> Array:
+            u = flat.reshape(shape)
+            result: Array = (u - step * (acceleration(u) - still)).ravel()
+            return result
+
+        operator = LinearOperator((velocities.size, velocities.size), matvec=apply, dtype=np.float64)
+        found, failed = bicgstab(operator, right.ravel(), x0=velocities.ravel(), rtol=TOLERANCE, maxiter=MOST)
+        if failed:
+            raise SphearError(
+                f"the implicit viscous step did not converge in {MOST} iterations: take a smaller time step"
+            )
+        result: Array = (found.reshape(shape) - velocities) / time_step
+        return result

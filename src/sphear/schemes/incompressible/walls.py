@@ -1,0 +1,199 @@
+"""Wall particles, and what the fluid before a wall says of the fields behind it."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.spatial import cKDTree
+
+from sphear.boundaries.shapes import Dummies
+from sphear.interactions.normal_derivative import NormalFit, NormalWeights
+from sphear.interactions.point_fit import LEAST_PIVOT, PointFit, PointWeights
+from sphear.interactions.wall_fit import WallFit, WallWeights
+from sphear.kernels import Kernel
+from sphear.neighbours import Domain
+from sphear.schemes.incompressible.places import Places
+
+Array = np.ndarray[Any, Any]
+
+MIRROR_REACH, CONTINUATION_REACH = 3.0, 3.5  # spacings: some 14 particles for a plane, 20 before a wall for a parabola
+EQUAL = 1e-6  # spacings by which two distances may differ that are the same
+THIN = 0.03  # of a plane's fit over its weights, in smoothing lengths squared: that of two rows is four times that
+TERMS = {"linear": 1, "quadratic": 3}  # of the fit before a wall
+
+
+class WallRows(NamedTuple):
+    """Fields of wall particles as sums over the fluid, one row (W, N) a wall particle.
+
+    mirrored: the value at its mirror point, or of the fluid around it (Adami).
+    continued: u - u_wall, from u_fluid - u_wall; None where it is the opposite of the mirrored.
+    """
+
+    mirrored: csr_array
+    continued: csr_array | None
+
+
+class Walls:
+    """Wall particles at rest: S on the walls, the others, dummies, behind them; W in all.
+
+    Args:
+        dummies: the wall particles; those of depth 0 are on the walls and come first.
+        spacing: of the particles.
+        kind: a kernel, of which the fits take their form.
+        domain: with its periodic axes.
+        wall_velocity: how velocities are continued: "mirror", "linear" or "quadratic".
+        adami: fields are those of the fluid around a dummy, not at its mirror point.
+        free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
+        accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
+    """
+
+    def __init__(
+        self,
+        dummies: Dummies,
+        spacing: float,
+        kind: Kernel,
+        domain: Domain | None,
+        wall_velocity: str,
+        adami: bool,
+        free_surface: bool = False,
+        accelerations: Array | None = None,
+    ) -> None:
+        self.dummies, self.spacing, self.domain, self.adami = dummies, spacing, domain, adami
+        self.count = len(dummies.positions)
+        self.on_wall = int((dummies.depths <= 0).sum())
+        self.depths, self.normals, self.velocities = dummies.depths, dummies.normals, dummies.velocities
+        self.accelerations = np.zeros_like(dummies.velocities) if accelerations is None else accelerations
+        self.feet = dummies.feet
+        self.images = self.feet + dummies.depths[:, None] * dummies.normals
+        self.mirrors = dummies.positions if adami else self.images
+        self.least_pivot = THIN if free_surface else LEAST_PIVOT
+        self.terms = TERMS.get(wall_velocity, 0)
+        # a dummy that is a neighbour of the fluid has fluid around it
+        self._mirror_kernel = kind if adami else type(kind)(MIRROR_REACH * spacing / kind.support)
+        self._continuation_kernel = type(kind)(CONTINUATION_REACH * spacing / kind.support)
+        deepest = float(dummies.depths.max(initial=0.0))
+        self.reach = max(deepest + self._mirror_kernel.radius, self._continuation_kernel.radius)
+
+    def rows(self, positions: Array, distances: Array) -> WallRows:
+        """The rows for fluid at `positions` (N, d), so far from the walls (N,)."""
+        near = np.flatnonzero(distances < self.reach)
+        fit = PointFit(self._mirror_kernel, 0 if self.adami else 1, self.least_pivot)
+        mirrored = self._matrix(
+            self.mirrors, positions, near, self._mirror_kernel, fit, PointWeights(self._mirror_kernel)
+        )
+        if not self.terms:
+            return WallRows(mirrored, None)
+        kernel = self._continuation_kernel
+        fields = {
+            "depth": np.concatenate((self.depths, distances[near])),
+            "normal": np.concatenate((self.normals, np.zeros((len(near), positions.shape[1])))),
+        }
+        before = self._matrix(
+            self.feet, positions, near, kernel, WallFit(kernel, self.terms), WallWeights(kernel, self.terms), fields
+        )
+        return WallRows(mirrored, before)
+
+    def _matrix(
+        self,
+        points: Array,
+        positions: Array,
+        near: Array,
+        kernel: Kernel,
+        fit: Any,
+        weights: Any,
+        fields: dict[str, Array] | None = None,
+    ) -> csr_array:
+        """One row (N,) a point, from the particles near walls; points have no volume, so they are no neighbours."""
+        places = np.concatenate((points, positions[near]))
+        volume = np.full(len(places), self.spacing ** positions.shape[1])
+        volume[: len(points)] = 0.0
+        around = Places(places, len(points), kernel, volume, self.domain, 1, coincident=True)
+        around.fields.update(fields or {})
+        column = np.concatenate((np.zeros(len(points), np.int32), near.astype(np.int32)))
+        matrix = around.matrix(weights, fit, column, len(positions))
+        matrix.eliminate_zeros()  # of points that are neighbours of each other
+        back = np.empty(len(points), np.int32)
+        back[around.neighbours.rows] = np.arange(len(points), dtype=np.int32)
+        return matrix[back]
+
+    def continued(self, rows: WallRows, velocities: Array) -> Array:
+        """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it."""
+        if rows.continued is None:
+            behind = 2.0 * self.velocities - rows.mirrored @ velocities
+            behind[: self.on_wall] = self.velocities[: self.on_wall]
+        else:
+            total = np.asarray(rows.continued.sum(axis=1)).reshape(-1, 1)
+            behind = rows.continued @ velocities + (1.0 - total) * self.velocities
+        return np.concatenate((velocities, behind))
+
+    def slipping(self, rows: WallRows, velocities: Array, since: float = 0.0) -> Array:
+        """(N + W, d): behind walls the velocity along the wall is the fluid's, that across it the opposite.
+
+        Args:
+            rows: of the fluid.
+            velocities: (N, d), along the walls a time `since` after the particles were here.
+            since: across walls that turn they then are, seen from here, that time times the walls' acceleration.
+        """
+        behind = rows.mirrored @ velocities
+        wall = self.velocities + since * self.accelerations
+        across = ((behind - wall) * self.normals).sum(axis=1, keepdims=True)
+        strength = np.where(self.depths > 0, 2.0, 1.0)[:, None]
+        return np.concatenate((velocities, behind - strength * across * self.normals))
+
+    def ways(self, rows: WallRows, positions: Array) -> Array:
+        """(W, d): from wall particles to where the values that are mirrored to them are from.
+
+        That is across the wall to the mirror point; with Adami to the middle of the fluid around, in corners aside.
+
+        Args:
+            rows: of the fluid.
+            positions: (N, d), of the fluid.
+        """
+        if not self.adami:
+            return 2.0 * self.depths[:, None] * self.normals
+        weights = rows.mirrored
+        wall = np.repeat(np.arange(self.count), np.diff(weights.indptr))
+        way = positions[weights.indices] - self.dummies.positions[wall]
+        if self.domain is not None:
+            way = self.domain.shortest(way)
+        columns = [np.bincount(wall, weights.data * part, self.count) for part in way.T]
+        return np.stack(columns, axis=1)
+
+    def even(self, rows: WallRows, field: Array) -> Array:
+        """(N + W, ...): a field that is the same on both sides of walls."""
+        return np.concatenate((field, rows.mirrored @ field))
+
+    def nearest_on_wall(self) -> csr_array:
+        """(W, S): of each wall particle the one on the wall that is nearest, or the mean of those equally near."""
+        if not self.on_wall:
+            return csr_array((self.count, 0))
+        tree = cKDTree(self.dummies.positions[: self.on_wall])
+        distance = np.asarray(tree.query(self.feet)[0])
+        listed = tree.query_ball_point(self.feet, distance + EQUAL * self.spacing)
+        numbers = np.array([len(found) for found in listed])
+        starts = np.concatenate(([0], np.cumsum(numbers)))
+        column = np.concatenate([np.sort(found) for found in listed])
+        return csr_array((np.repeat(1.0 / numbers, numbers), column, starts), shape=(self.count, self.on_wall))
+
+    def normal_derivatives(self, positions: Array, column: Array, columns: int) -> csr_array:
+        """The rows (S, columns) of n . grad f at the particles on walls, from them and the fluid, by SFDI.
+
+        Args:
+            positions: (N, d), of the fluid.
+            column: (N + S,), of each particle, those on walls last.
+            columns: their number.
+        """
+        kernel = self._mirror_kernel
+        on = self.dummies.positions[: self.on_wall]
+        places = np.concatenate((on, positions))
+        around = Places(
+            places, len(on), kernel, np.full(len(places), self.spacing ** positions.shape[1]), self.domain, 1
+        )
+        around.fields["normal"] = np.concatenate((self.normals[: len(on)], np.zeros_like(positions)))
+        order = np.concatenate((column[len(positions) :], column[: len(positions)])).astype(np.int32)
+        matrix = around.matrix(NormalWeights(kernel), NormalFit(kernel), order, columns)
+        back = np.empty(len(on), np.int32)
+        back[around.neighbours.rows] = np.arange(len(on), dtype=np.int32)
+        return matrix[back]
