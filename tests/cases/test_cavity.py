@@ -23,7 +23,7 @@ CAVITY = FLOWS["cavity"]
 
 
 def cavity(**changes: Any) -> tuple[FlowSettings, Flow]:
-    settings = CAVITY.settings(resolution=N, **changes)
+    settings = CAVITY.explicit(resolution=N, **changes)
     return settings, Flow(CAVITY.problem(settings), settings)
 
 
@@ -59,6 +59,19 @@ def test_interpolation_is_exact_where_particles_have_left_a_hole() -> None:
     np.testing.assert_allclose(interpolated(flow, centre), parabolas(centre), rtol=0, atol=1e-9)
 
 
+@pytest.mark.parametrize("radius", [2.0, 3.2])  # spacings, within the reach of the fit and beyond it
+def test_interpolation_is_exact_where_the_nearest_particles_lie_on_a_circle(radius: float) -> None:
+    _, flow = cavity()
+    off = flow.positions - 0.5
+    distance = np.hypot(*off.T)[:, None]
+    flow.positions[:] += np.where(distance < 3.5 / N, off / distance * (radius / N - distance), 0)
+    near = np.sort(np.hypot(*(flow.positions - 0.5).T))[:20]
+    assert np.ptp(near) < 1e-12
+    flow.velocities[:] = parabolas(flow.positions)
+    centre = np.array([[0.5, 0.5]])
+    np.testing.assert_allclose(interpolated(flow, centre), parabolas(centre), rtol=0, atol=1e-9)
+
+
 def test_particles_at_rest_have_no_energy_and_the_time_zero_no_error() -> None:
     settings, flow = cavity()
     assert CAVITY.metrics(settings, flow) == {"kinetic_energy": 0.0}
@@ -67,7 +80,7 @@ def test_particles_at_rest_have_no_energy_and_the_time_zero_no_error() -> None:
 @pytest.mark.parametrize("resolution", [10, 20])
 def test_the_energy_is_the_integral_over_the_cavity(resolution: int) -> None:
     """u = (3, 4) everywhere: |u|^2 / 2 over the area 1."""
-    settings = CAVITY.settings(resolution=resolution)
+    settings = CAVITY.explicit(resolution=resolution)
     flow = Flow(CAVITY.problem(settings), settings)
     flow.velocities[:] = (3.0, 4.0)
     assert CAVITY.metrics(settings, flow)["kinetic_energy"] == pytest.approx(12.5)

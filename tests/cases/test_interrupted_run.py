@@ -39,7 +39,7 @@ class Interrupted:
 
 
 def interrupted(run: FlowRun, call: int, path: Path) -> FlowRun:
-    run.flow.__dict__["_loop"] = Interrupted(run.flow._loop, call)
+    run.flow.__dict__["_loop"] = Interrupted(run.flow.__dict__["_loop"], call)
     with pytest.raises(KeyboardInterrupt):
         run.run(keep=path)
     return run
@@ -64,6 +64,27 @@ def test_an_interrupted_run_stands_at_its_last_output(tmp_path: Path) -> None:
     assert len(stopped.history) == 3
     assert stopped.flow.steps == stopped.history[-1]["steps"]
     assert stopped.flow.time == pytest.approx(stopped.history[-1]["time"] * stopped.unit)
+
+
+@pytest.mark.parametrize("changes", [{}, {"max_steps": 30}])
+def test_a_run_that_is_interrupted_at_its_last_output_makes_no_further_step(
+    changes: dict[str, Any], tmp_path: Path
+) -> None:
+    settings = CASE.settings(resolution=10, until=0.1, **changes)
+    path = tmp_path / "state.npz"
+    whole = FlowRun(CASE, settings).run()
+
+    def interrupt(text: str) -> None:
+        if stopped.flow.steps == whole.flow.steps:
+            raise KeyboardInterrupt
+
+    stopped = FlowRun(CASE, settings)
+    with pytest.raises(KeyboardInterrupt):
+        stopped.run(interrupt, keep=path)
+    again = FlowRun(CASE, settings)
+    again.restore(path)
+    again.run()
+    assert (again.end, again.flow.steps, again.history) == (whole.end, whole.flow.steps, whole.history)
 
 
 DAMAGES: dict[str, Callable[[bytes], bytes]] = {

@@ -15,8 +15,9 @@ from sphear.cases.fields import field as scalar_field
 from sphear.cases.lattice import Lattice, lattice
 from sphear.cases.stream import stream_velocity
 from sphear.engine.threads import thread_count
-from sphear.errors import SphearError, TooFewNeighboursError
+from sphear.errors import SphearError
 from sphear.operators import Particles, arguments
+from sphear.operators.particles import needing_neighbours, too_few_neighbours
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -147,11 +148,8 @@ class PatchTest(BaseModel):
         if np.isinf(result).any() or (lacking.any() and not needs_neighbours):
             raise SphearError(f"the sums over field {self.field!r} are too large for {self.precision} numbers")
         if lacking.all() or (lacking.any() and self.fallback is None):
-            place = ", ".join(f"{x:.6g}" for x in grid.positions[sample[lacking][0]])
-            what = f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
-            remedy = "" if self.fallback == "nan" else ", or ask for fallback 'uncorrected' or 'nan'"
-            raise TooFewNeighboursError(
-                f"{lacking.sum()} of {len(sample)} particles have too few neighbours for {what}, the first at"
-                f" ({place}): take a larger h_over_dx{remedy}"
+            what = needing_neighbours(term, correction)
+            raise too_few_neighbours(
+                np.flatnonzero(lacking), grid.positions[sample], what, "at", "h_over_dx", self.fallback
             )
         return result[~lacking], exact[~lacking]

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from sphear.schemes.flow import Flow
+from sphear.errors import SphearError
+from sphear.schemes.base import FlowInTime, Settings, settings_type
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
 
+__all__ = ["Comparison", "FlowCase", "FlowInTime", "Settings", "kinetic_energy"]
+
 Array = np.ndarray[Any, Any]
+
+
+def kinetic_energy(flow: FlowInTime) -> float:
+    """That of a plane flow, of a unit of depth."""
+    problem = flow.problem
+    return float(0.5 * (flow.velocities**2).sum() * problem.spacing**2 * problem.density)
 
 
 class Comparison(NamedTuple):
@@ -36,32 +45,55 @@ class FlowCase:
 
     Attributes:
         name: on the command line.
-        defaults: settings that differ from the general ones.
+        defaults: settings that differ from the general ones, for each scheme that computes it; the first is taken if
+            nothing is said.
         problem: what is to be computed, from the settings.
         comparisons: profiles beside the reference, by name.
         time_unit: what `until` and the printed times are multiples of, from the settings.
         time_name: how that time is called.
         metrics: errors and the like at one moment, by name.
-        ended: why a run is over at one moment, from its metrics: "steady", "failed: ..." or None.
+        ended: why a run is over at one moment, from its metrics: "steady", "failed: ...", what else ends it, or None.
         summary: what is found at the end, beside the metrics.
         profiles: numbers along lines, at the end, that are kept with the results of a sweep.
         headline: the metric that is drawn against time.
+        kinds: settings with more than the general ones, by scheme, where the case has any of its own.
         horizon: when a run without `until` is expected to end, in the time unit; None if it has no end of its own.
     """
 
     name: str
-    defaults: dict[str, Any]
-    problem: Callable[[FlowSettings], Problem]
-    comparisons: Callable[[FlowSettings, Flow], dict[str, Comparison]]
-    time_unit: Callable[[FlowSettings], float]
+    defaults: dict[str, dict[str, Any]]
+    problem: Callable[[Settings], Problem]
+    comparisons: Callable[[Settings, FlowInTime], dict[str, Comparison]]
+    time_unit: Callable[[Settings], float]
     time_name: str
-    metrics: Callable[[FlowSettings, Flow], dict[str, float]]
-    ended: Callable[[FlowSettings, Flow, dict[str, float]], str | None]
-    summary: Callable[[FlowSettings, Flow], dict[str, float]] = lambda settings, flow: {}
-    profiles: Callable[[FlowSettings, Flow], dict[str, list[float]]] = lambda settings, flow: {}
+    metrics: Callable[[Settings, FlowInTime], dict[str, float]]
+    ended: Callable[[Settings, FlowInTime, dict[str, float]], str | None]
+    summary: Callable[[Settings, FlowInTime], dict[str, float]] = lambda settings, flow: {}
+    profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"
     horizon: float | None = None
+    kinds: Mapping[str, type[Settings]] = field(default_factory=dict)
 
-    def settings(self, **changes: Any) -> FlowSettings:
-        """The settings of this case with some changed."""
-        return FlowSettings.model_validate({**self.defaults, **changes})
+    def settings(self, **changes: Any) -> Settings:
+        """The settings of this case with some changed.
+
+        Raises:
+            SphearError: a setting is wrong, or the case has no such scheme.
+        """
+        scheme = str(changes.get("scheme", next(iter(self.defaults))))
+        return self.kind(scheme)(**{**self.defaults[scheme], **changes})
+
+    def kind(self, scheme: str) -> type[Settings]:
+        """The settings that the case has for a scheme.
+
+        Raises:
+            SphearError: it has none.
+        """
+        general = settings_type(scheme)
+        if scheme not in self.defaults:
+            raise SphearError(f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {scheme}")
+        return self.kinds.get(scheme, general)
+
+    def explicit(self, **changes: Any) -> FlowSettings:
+        """The settings of this case for the explicit scheme, with some changed."""
+        return FlowSettings(**{**self.defaults["explicit"], **changes})

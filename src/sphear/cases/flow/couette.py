@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references.couette import PlaneCouette
-from sphear.schemes.flow import Flow
+from sphear.schemes.base import SCHEMES
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
 
 Array = np.ndarray[Any, Any]
 
@@ -20,12 +19,12 @@ GAP, KINEMATIC_VISCOSITY, DENSITY = 1.0, 1.0, 1.0
 STEADY = 1e-12
 
 
-def reference(settings: FlowSettings) -> PlaneCouette:
+def reference(settings: Settings) -> PlaneCouette:
     """The exact flow; the wall's velocity follows from the Reynolds number U L / nu."""
     return PlaneCouette(GAP, KINEMATIC_VISCOSITY, settings.reynolds * KINEMATIC_VISCOSITY / GAP)
 
 
-def problem(settings: FlowSettings) -> Problem:
+def problem(settings: Settings) -> Problem:
     """A square of particles between a wall at rest below and one that moves above."""
     speed = reference(settings).wall_velocity
     box = Box((0.0, 0.0), (GAP, GAP), ("periodic", "walls"), upper_velocity=(speed, 0.0))
@@ -43,14 +42,14 @@ def problem(settings: FlowSettings) -> Problem:
     )
 
 
-def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
+def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
     """The velocities of all particles beside the start-up series."""
     y = np.linspace(0.0, GAP, 101)
     exact = reference(settings).velocity(y, flow.time)
     return {"u": Comparison("y", flow.positions[:, 1], flow.velocities[:, 0], y, exact)}
 
 
-def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
+def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
     """The RMS error relative to the wall's velocity, and the kinetic energy over that of the steady flow."""
     along = reference(settings).velocity(flow.positions[:, 1], flow.time)
     speed = reference(settings).wall_velocity
@@ -61,7 +60,7 @@ def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     }
 
 
-def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | None:
+def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
     """Steady when the slowest mode, exp(-pi^2 nu t / L^2), is below 1e-12."""
     decayed = np.exp(-(np.pi**2) * KINEMATIC_VISCOSITY * flow.time / GAP**2) < STEADY
     return "steady" if decayed else None
@@ -69,7 +68,7 @@ def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | 
 
 COUETTE = FlowCase(
     name="couette",
-    defaults={"reynolds": 1.0, "resolution": 20},
+    defaults={name: {"reynolds": 1.0, "resolution": 20} for name in SCHEMES},
     problem=problem,
     comparisons=comparisons,
     time_unit=lambda settings: GAP**2 / KINEMATIC_VISCOSITY,

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sphear.boundaries import Box
 from sphear.boundaries.box import with_images
+from sphear.boundaries.shapes import Shape, fluid_lattice
 from sphear.engine.sweep import sweep
+from sphear.errors import SphearError
 from sphear.interactions import Shifting
 from sphear.interactions.rates import Rates
 from sphear.kernels import WendlandC2
-from sphear.neighbours import Neighbours
-from sphear.schemes.settings import FlowSettings
+from sphear.neighbours import Domain, Neighbours
+
+if TYPE_CHECKING:
+    from sphear.schemes.base import Settings
 
 Array = np.ndarray[Any, Any]
 
@@ -22,7 +26,7 @@ SETTLING_STEPS = 200
 SETTLING_RATE = 0.2  # of a smoothing length, for a drift of the largest speed
 
 
-def particles_between(box: Box, settings: FlowSettings) -> tuple[Array, float]:
+def particles_between(box: Box, settings: Settings) -> tuple[Array, float]:
     """Particles that fill a box, `resolution` along its last axis, and their spacing.
 
     As `settings.initial` says: on a square lattice; with every other row of it shifted by half a spacing (by a quarter
@@ -42,6 +46,19 @@ def particles_between(box: Box, settings: FlowSettings) -> tuple[Array, float]:
     if settings.initial == "relaxed":
         positions = relaxed(positions, box, spacing, settings.seed)
     return positions, spacing
+
+
+def particles_in(shape: Shape, box: Box, settings: Settings) -> tuple[Array, float]:
+    """Particles of a lattice that fill a shape in a box, `resolution` of them along its last axis, and their spacing.
+
+    Raises:
+        SphearError: there is no fluid, or particles are asked for that are not on a lattice.
+    """
+    if settings.initial != "lattice":
+        raise SphearError(f"particles around shapes start from initial=lattice, not from initial={settings.initial}")
+    spacing = (box.upper[-1] - box.lower[-1]) / settings.resolution
+    window = Domain(box.lower, box.upper, tuple(side == "periodic" for side in box.sides))
+    return fluid_lattice(shape, spacing, window), spacing
 
 
 def relaxed(positions: Array, box: Box, spacing: float, seed: int) -> Array:

@@ -11,14 +11,10 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from sphear.boundaries import WALL_VELOCITIES
-from sphear.cases.flow.base import FlowCase
-from sphear.corrections import CORRECTIONS
+from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.own_walls import opened
 from sphear.errors import SphearError
-from sphear.kernels import KERNELS
-from sphear.schemes.flow import Flow, FlowFailure
-from sphear.schemes.settings import FlowSettings
-from sphear.viscosity import VISCOSITY
+from sphear.schemes.base import FlowFailure, flow_in_time
 
 OUTPUTS = 200  # of a run to its planned end
 SAVED_EVERY = 60.0  # seconds
@@ -34,16 +30,16 @@ class FlowRun:
     Attributes:
         flow: the state.
         history: a row for each output: time in the unit of the case, steps and the metrics.
-        end: "steady", "time", "steps" or "failed: ..."; empty while it goes on.
+        end: "steady", "time", "steps", "failed: ..." or what else the case ends at; empty while it goes on.
         seconds: spent in the time loop, its compilation not counted.
 
     Raises:
         SphearError: the settings do not fit the case or each other.
     """
 
-    def __init__(self, case: FlowCase, settings: FlowSettings) -> None:
-        self.case, self.settings = case, settings
-        self.flow = Flow(case.problem(settings), settings)
+    def __init__(self, case: FlowCase, settings: Settings) -> None:
+        self.case, self.settings = opened(case, settings), settings
+        self.flow = flow_in_time(self.case.problem(settings), settings)
         self.unit = case.time_unit(settings)
         self.history: list[dict[str, float]] = []
         self.end = ""
@@ -67,6 +63,8 @@ class FlowRun:
         until = np.inf if self.settings.until is None else self.settings.until * self.unit
         saved = time.monotonic()
         output = self.flow.state(), len(self.history)
+        if self.history and not self.end:  # gone on with: it may have been interrupted at its last output
+            self.end = self._verdict(self.history[-1], until)
         try:
             self.flow.advance(0)  # compiles
             while not self.end:
@@ -100,15 +98,18 @@ class FlowRun:
         return f"{self.case.time_name} = {self.history[-1]['time']:.4g}, step {self.flow.steps}{ending}"
 
     def _observe(self, until: float) -> None:
-        metrics = self.case.metrics(self.settings, self.flow)
+        with np.errstate(all="ignore"):  # also of a flow that broke down
+            metrics = {**self.case.metrics(self.settings, self.flow), **self.flow.metrics()}
         self.history.append({"time": self.flow.time / self.unit, "steps": self.flow.steps, **metrics})
-        if self.end:
-            return
-        self.end = self.case.ended(self.settings, self.flow, metrics) or ""
-        if not self.end and self.flow.time >= until * (1 - 1e-12):
-            self.end = "time"
-        elif not self.end and self.flow.steps >= self.settings.max_steps:
-            self.end = "steps"
+        self.end = self.end or self._verdict(metrics, until)
+
+    def _verdict(self, metrics: dict[str, float], until: float) -> str:
+        """How the run has ended, where it stands; empty if it goes on."""
+        if said := self.case.ended(self.settings, self.flow, metrics):
+            return said
+        if self.flow.time >= until * (1 - 1e-12):
+            return "time"
+        return "steps" if self.flow.steps >= self.settings.max_steps else ""
 
     def save(self, path: Path) -> None:
         """Write all that the run needs to go on to a file, an `.npz` of NumPy."""
@@ -133,44 +134,39 @@ class FlowRun:
             with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
                 state = dict(file)
             about = json.loads(str(state.pop("about")))
-        except (OSError, EOFError, ValueError, KeyError, TypeError, BadZipFile):
+            of, was, history, seconds = (about[key] for key in ("case", "settings", "history", "seconds"))
+            time, steps = (history[-1]["time"], history[-1]["steps"]) if history else (0.0, 0)
+        except (OSError, EOFError, ValueError, LookupError, TypeError, BadZipFile):
             raise SphearError(f"there is no saved run in {path} that could be gone on with") from None
         now = self.settings.model_dump(mode="json")
         changed = [
             key
             for key, value in now.items()
-            if about["settings"].get(key) != value and key not in ("until", "max_steps", "threads", "force")
+            if was.get(key) != value and key not in ("until", "max_steps", "threads", "force")
         ]
-        if about["case"] != self.case.name:
-            raise SphearError(f"the saved run in {path} is of {about['case']}, not of {self.case.name}")
+        if of != self.case.name:
+            raise SphearError(f"the saved run in {path} is of {of}, not of {self.case.name}")
         if changed:
-            was = about["settings"].get(changed[0])
-            raise SphearError(f"the saved run in {path} has {changed[0]} = {was}, not {now[changed[0]]}")
+            raise SphearError(
+                f"the saved run in {path} has {changed[0]} = {was.get(changed[0])}, not {now[changed[0]]}"
+            )
+        settings, step = self.settings, 1.001 * self.flow.time_step / self.unit  # a run ends within one of its time
+        for name, last, reached in (("until", settings.until, time - step), ("max_steps", settings.max_steps, steps)):
+            if last is not None and reached > last:
+                raise SphearError(f"the saved run in {path} is already at {reached:g}, beyond {name} = {last:g}")
         self.flow.restore(state)
-        self.history, self.seconds = about["history"], about["seconds"]
+        self.history, self.seconds = history, seconds
 
     def as_dict(self) -> dict[str, Any]:
         """Case, resolved settings, metrics and performance, as `--json` prints them."""
         flow, settings = self.flow, self.settings
-        resolved = {
-            "viscosity": VISCOSITY.name(settings.viscosity),
-            "correction": CORRECTIONS.name(settings.correction),
-            "kernel": KERNELS.name(settings.kernel),
-            "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
-            "momentum": settings.form,
-            "h_over_dx": flow.kernel.h / flow.problem.spacing,
-            "sound_speed": flow.sound_speed,
-            "time_step": flow.time_step,
-            "threads": flow.threads,
-            "kinematic_viscosity": flow.problem.kinematic_viscosity,
-        }
         last = self.history[-1]
         failed = self.end.startswith("failed")
         summary = {} if failed else self.case.summary(settings, flow)
         profiles = {} if failed else self.case.profiles(settings, flow)
         return {
             "case": self.case.name,
-            "settings": {**settings.model_dump(mode="json"), **resolved},
+            "settings": {**settings.model_dump(mode="json"), **flow.resolved()},
             "metrics": {**last, **summary, "end": self.end, "failure_time": last["time"] if failed else None},
             **({"profiles": profiles} if profiles else {}),
             "performance": {

@@ -7,24 +7,23 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase
+from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings, kinetic_energy
 from sphear.cases.flow.initial import particles_between
 from sphear.references.taylor_green import TaylorGreen
-from sphear.schemes.flow import Flow
+from sphear.schemes.base import SCHEMES
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
 
 Array = np.ndarray[Any, Any]
 
 SIDE, SPEED, DENSITY = 1.0, 1.0, 1.0
 
 
-def reference(settings: FlowSettings) -> TaylorGreen:
+def reference(settings: Settings) -> TaylorGreen:
     """The exact flow; the viscosity follows from the Reynolds number U L / nu."""
     return TaylorGreen(SPEED * SIDE / settings.reynolds, SIDE, SPEED, DENSITY)
 
 
-def problem(settings: FlowSettings) -> Problem:
+def problem(settings: Settings) -> Problem:
     """A lattice of particles with the exact velocities."""
     box = Box((0.0, 0.0), (SIDE, SIDE), ("periodic", "periodic"))
     positions, spacing = particles_between(box, settings)
@@ -41,7 +40,7 @@ def problem(settings: FlowSettings) -> Problem:
     )
 
 
-def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
+def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
     """The velocities of the particles near the line x = L / 4 beside the decaying vortices."""
     y = np.linspace(0.0, SIDE, 101)
     line = np.stack((np.full_like(y, 0.25 * SIDE), y), axis=1)
@@ -54,10 +53,10 @@ def comparisons(settings: FlowSettings, flow: Flow) -> dict[str, Comparison]:
     }
 
 
-def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
+def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
     """L2 error over the exact velocity, kinetic energy, and it over the exact one."""
     velocity = np.asarray(reference(settings).velocity(flow.positions, flow.time))
-    energy = float(0.5 * (flow.velocities**2).sum() * flow.problem.spacing**2 * DENSITY)
+    energy = kinetic_energy(flow)
     return {
         "l2_error": float(np.linalg.norm(flow.velocities - velocity) / np.linalg.norm(velocity)),
         "kinetic_energy": energy,
@@ -65,14 +64,14 @@ def metrics(settings: FlowSettings, flow: Flow) -> dict[str, float]:
     }
 
 
-def ended(settings: FlowSettings, flow: Flow, found: dict[str, float]) -> str | None:
+def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
     """Never before its time."""
     return None
 
 
 TAYLOR_GREEN = FlowCase(
     name="taylor-green",
-    defaults={"reynolds": 100.0, "resolution": 50, "until": 0.5},
+    defaults={name: {"reynolds": 100.0, "resolution": 50, "until": 0.5} for name in SCHEMES},
     problem=problem,
     comparisons=comparisons,
     time_unit=lambda settings: SIDE / SPEED,

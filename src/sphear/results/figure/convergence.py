@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +14,7 @@ from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from sphear.results.figure.spread import spread
-from sphear.results.figure.style import FAINT, FONT_SIZE, Curve, grid, key, look, styled
+from sphear.results.figure.style import FAINT, FONT_SIZE, INK, Curve, grid, key, look, styled
 
 PANEL = (5.6, 4.0)
 Points = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -28,12 +29,14 @@ class Convergence:
         ylabel: What they show.
         reference_slopes: Slopes to compare with, each drawn under the curve whose own slope is the nearest.
         published: Values of a paper, drawn as open markers in the colour of the series of that name.
+        levels: Horizontal lines, by name.
     """
 
     series: Mapping[str, Curve]
     ylabel: str
     reference_slopes: Sequence[float] = ()
     published: Mapping[str, Curve] = field(default_factory=dict)
+    levels: Mapping[str, float] = field(default_factory=dict)
 
 
 def loglog_convergence(
@@ -47,6 +50,7 @@ def loglog_convergence(
 def convergence_panels(panels: Sequence[Convergence], xlabel: str, title: str) -> Figure:
     """Draw panels of curves on logarithmic axes side by side, such as two readings of one error."""
     figure, axes = grid(len(panels), len(panels), PANEL, title)
+    levels: dict[str, Line2D] = {}
     for ax, panel in zip(axes, panels, strict=True):
         ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=panel.ylabel)
         curves = {name: _positive(curve) for name, curve in panel.series.items()}
@@ -56,18 +60,21 @@ def convergence_panels(panels: Sequence[Convergence], xlabel: str, title: str) -
             drawn.append(curve)
         for name, values in panel.published.items():
             ax.plot(*_positive(values), look(name).marker, color=look(name).colour, fillstyle="none", markersize=11)
+        for name, level in panel.levels.items():
+            dashes: Any = ("--", ":", "-.")[len(levels) % 3]
+            ax.axhline(level, color=INK, linestyle=dashes, linewidth=1.0, zorder=1.5)
+            levels[name] = Line2D([], [], color=INK, linestyle=dashes, linewidth=1.0)
         for slope in panel.reference_slopes:
             _draw_slope(ax, slope, drawn)
         _tick_at_points(ax, drawn)
         _name_ends(ax, curves)
     if any(panel.published for panel in panels):
-        key(
-            figure,
-            {
-                "computed": Line2D([], [], color=FAINT, marker="o"),
-                "published": Line2D([], [], color=FAINT, marker="o", fillstyle="none", linestyle="none", markersize=9),
-            },
-        )
+        levels |= {
+            "computed": Line2D([], [], color=FAINT, marker="o"),
+            "published": Line2D([], [], color=FAINT, marker="o", fillstyle="none", linestyle="none", markersize=9),
+        }
+    if levels:
+        key(figure, levels)
     return figure
 
 
@@ -126,7 +133,7 @@ def _draw_slope(ax: Axes, slope: float, curves: Sequence[Points]) -> None:
 
 def _tick_at_points(ax: Axes, curves: Sequence[Points]) -> None:
     """Put the ticks of the x axis where there are points, if it has room for them."""
-    points = np.unique(np.concatenate([x for x, _ in curves]))
+    points = np.unique(np.concatenate([x for x, _ in curves] or [np.empty(0)]))
     gaps = np.diff(np.log(points))
     if points.size and (gaps >= 0.1 * gaps.sum()).all():
         ax.set_xticks(points, labels=[f"{x:.3g}" if x < 1000 else f"{x:.0f}" for x in points])

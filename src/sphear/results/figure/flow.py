@@ -1,4 +1,4 @@
-"""A flow beside its reference: profiles at the end, and a metric over time."""
+"""A flow beside its reference: profiles at the end, a metric over time, and the particles."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from numpy.typing import ArrayLike, NDArray
 
 from sphear.results.figure.style import FAINT, INK, Curve, grid, key, look, styled
 
@@ -15,17 +17,30 @@ if TYPE_CHECKING:
     from sphear.cases.flow import Comparison
 
 
+RASTERED = 2000  # particles, from which on they are a picture in a vector file too
+PANEL = (2.7, 2.5)  # inches, about, that particles are drawn in
+GAP = 1.15  # spacings, as which a particle is drawn wide, so that fluid has no holes
+
+
 @styled
-def flow_panels(comparisons: Mapping[str, Comparison], history: Curve, labels: tuple[str, str], title: str) -> Figure:
-    """Draw each profile of a flow with its reference, and a metric against time.
+def flow_panels(
+    comparisons: Mapping[str, Comparison],
+    history: Curve,
+    labels: tuple[str, str],
+    title: str,
+    particles: tuple[ArrayLike, ArrayLike, float] | None = None,
+) -> Figure:
+    """Draw each profile of a flow with its reference, a metric against time, and the particles by their speed.
 
     Args:
         comparisons: the profiles, by name.
         history: times, and the metric at each.
         labels: what the times and the metric are called.
         title: of the figure.
+        particles: places (N, 2), velocities (N, 2) and their spacing; None draws none.
     """
-    figure, axes = grid(len(comparisons) + 1, 3, (4.0, 3.4), title)
+    panels = len(comparisons) + 1 + (particles is not None)
+    figure, axes = grid(panels, 4 if panels == 4 else 3, (4.0, 3.4), title)
     colour = look("morris").colour
     referred = False
     for ax, (name, profile) in zip(axes, comparisons.items(), strict=False):
@@ -41,6 +56,29 @@ def flow_panels(comparisons: Mapping[str, Comparison], history: Curve, labels: t
     last.set(xlabel=labels[0], ylabel=labels[1])
     if labels[1].endswith("error") and (values[np.isfinite(values)] > 0).all():
         last.set_yscale("log")
+    if particles is not None:
+        places, velocities, spacing = particles
+        draw_particles(axes[-1], np.asarray(places, float), np.asarray(velocities, float), spacing)
+    if not comparisons:
+        return figure
     lines = {"computed": Line2D([], [], color=INK, marker="o", linestyle="none")}
     key(figure, ({"reference": Line2D([], [], color=FAINT)} if referred else {}) | lines)
     return figure
+
+
+def draw_particles(ax: Axes, places: NDArray[np.float64], velocities: NDArray[np.float64], spacing: float) -> None:
+    """The particles by their speed, as wide as they are apart."""
+    ax.set(xlabel="x", ylabel="y", aspect="equal", title="speed")
+    ax.grid(visible=False)
+    width, height = places.max(axis=0) - places.min(axis=0) + spacing
+    inches = min(PANEL[0] / width, PANEL[1] / height)
+    drawn = ax.scatter(
+        places[:, 0],
+        places[:, 1],
+        c=np.hypot(*velocities.T),
+        s=(GAP * 72 * inches * spacing) ** 2,
+        cmap="viridis",
+        linewidths=0,
+        rasterized=len(places) > RASTERED,
+    )
+    ax.figure.colorbar(drawn, ax=ax)

@@ -1,0 +1,158 @@
+"""The lid-driven cavity with a cylinder inside (Zheng, Ma & Shao 2018, section 5.2)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from pydantic import Field
+
+from sphear.boundaries import Box
+from sphear.boundaries.shapes import Circle, Rectangle
+from sphear.cases.flow import cavity
+from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.cavity import DENSITY, LID_SPEED, SIDE, STATIONS
+from sphear.cases.flow.initial import particles_in
+from sphear.cases.flow.interpolation import interpolated
+from sphear.errors import SphearError
+from sphear.references import cavity as references
+from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.problem import Problem
+
+Array = np.ndarray[Any, Any]
+
+REFERENCE_REYNOLDS, REFERENCE_TIME = 1000.0, 40.0
+
+
+class CylinderSettings(IncompressibleSettings):
+    """The settings of an incompressible flow, and where the cylinder is.
+
+    Attributes:
+        diameter: of the cylinder, over the cavity's side.
+        centre_x: of the cylinder.
+        centre_y: of the cylinder.
+        spin: how fast it turns, counter-clockwise, in radians a time unit.
+    """
+
+    diameter: float = Field(default=0.5, gt=0, lt=1)
+    centre_x: float = Field(default=0.5, gt=0, lt=1)
+    centre_y: float = Field(default=0.5, gt=0, lt=1)
+    spin: float = Field(default=0.0, allow_inf_nan=False)
+
+
+def cylinder(settings: Settings) -> Circle:
+    """The cylinder."""
+    assert isinstance(settings, CylinderSettings)
+    return Circle((settings.centre_x, settings.centre_y), 0.5 * settings.diameter, spin=settings.spin)
+
+
+def problem(settings: Settings) -> Problem:
+    """Fluid at rest in a square around a cylinder; the upper wall slides."""
+    assert isinstance(settings, CylinderSettings)
+    nearest = min(min(x, SIDE - x) for x in (settings.centre_x, settings.centre_y))
+    if nearest < 0.5 * settings.diameter:
+        raise SphearError(
+            f"the cylinder overlaps a wall: with a diameter of {settings.diameter:g} its centre must be"
+            f" {0.5 * settings.diameter:g} or more from the walls, and centre_x={settings.centre_x:g},"
+            f" centre_y={settings.centre_y:g} is {nearest:g} from one"
+        )
+    box = Box((0.0, 0.0), (SIDE, SIDE), ("walls", "walls"), upper_velocity=(LID_SPEED, 0.0))
+    shape = Rectangle((0.0, 0.0), (SIDE, SIDE), velocities={"upper": (LID_SPEED, 0.0)}) - cylinder(settings)
+    positions, spacing = particles_in(shape, box, settings)
+    return Problem(
+        positions=positions,
+        velocities=np.zeros_like(positions),
+        box=box,
+        body_force=(0.0, 0.0),
+        spacing=spacing,
+        density=DENSITY,
+        kinematic_viscosity=LID_SPEED * SIDE / settings.reynolds,
+        speed=max(LID_SPEED, abs(settings.spin) * 0.5 * settings.diameter),
+        length=SIDE,
+        shape=shape,
+    )
+
+
+def reference(settings: Settings, time: float) -> references.CavityFlow | None:
+    """The computed flow of the paper's cylinder, where it is that one; its profiles are of t = 40."""
+    usual = CylinderSettings()
+    same = isinstance(settings, CylinderSettings) and all(
+        getattr(settings, name) == getattr(usual, name) for name in ("diameter", "centre_x", "centre_y", "spin")
+    )
+    return references.cavity_cylinder() if same and settings.reynolds == REFERENCE_REYNOLDS else None
+
+
+def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
+    return cavity.energy(reference(settings, flow.time), flow)
+
+
+def _stations(flow: FlowInTime, axis: int) -> tuple[Array, Array]:
+    """The stations in the fluid along x = 1/2 (axis 1) or y = 1/2 (axis 0), and their places."""
+    points = np.full((len(STATIONS), 2), 0.5 * SIDE)
+    points[:, axis] = STATIONS
+    assert flow.problem.shape is not None
+    inside = flow.problem.shape.distance(points) > 0
+    return STATIONS[inside], points[inside]
+
+
+def centrelines(flow: FlowInTime) -> dict[str, tuple[Array, Array]]:
+    """u along x = 1/2 and v along y = 1/2: stations in the fluid and values."""
+    found = {}
+    for name, axis, component in (("u", 1, 0), ("v", 0, 1)):
+        stations, points = _stations(flow, axis)
+        found[name] = stations, interpolated(flow, points)[:, component]
+    return found
+
+
+def summary(settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u."""
+    lines = centrelines(flow)
+    found = {"u_min": float(lines["u"][1].min())}
+    known = reference(settings, flow.time)
+    if known is None:
+        return found
+    found["reference_time"] = known.time
+    for name, curve in (("u", known.u), ("v", known.v)):
+        stations, values = lines[name]
+        deviation = np.abs(values - curve.at(stations))
+        found[f"{name}_mean_deviation"] = float(np.nanmean(deviation))
+        found[f"{name}_max_deviation"] = float(np.nanmax(deviation))
+    return found
+
+
+def profiles(settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+    """Both centreline profiles, to be kept."""
+    lines = centrelines(flow)
+    return {
+        "y": lines["u"][0].tolist(), "u": lines["u"][1].tolist(),
+        "x": lines["v"][0].tolist(), "v": lines["v"][1].tolist(),
+    }  # fmt: skip
+
+
+def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    """Both centreline profiles."""
+    known, nothing = reference(settings, flow.time), np.empty(0)
+    found = {}
+    for name, title, along in (("u", "u on x = 1/2", "y"), ("v", "v on y = 1/2", "x")):
+        stations, values = centrelines(flow)[name]
+        curve = None if known is None else {"u": known.u, "v": known.v}[name]
+        beside = (nothing, nothing) if curve is None else (curve.stations, curve.values)
+        found[title] = Comparison(along, stations, values, *beside)
+    return found
+
+
+CAVITY_CYLINDER = FlowCase(
+    name="cavity-cylinder",
+    defaults={"incompressible": {"reynolds": 1000.0, "resolution": 100, "until": 40.0}},
+    kinds={"incompressible": CylinderSettings},
+    problem=problem,
+    comparisons=comparisons,
+    time_unit=lambda settings: SIDE / LID_SPEED,
+    time_name="t",
+    metrics=metrics,
+    ended=lambda settings, flow, found: None,
+    summary=summary,
+    profiles=profiles,
+    headline="kinetic_energy",
+)
