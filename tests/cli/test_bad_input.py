@@ -33,7 +33,7 @@ GENERAL = {
     "reproduce": "missing argument 'PAPER'",
     "reproduce zhen2018": "no paper named 'zhen2018': did you mean zheng2018",
     "reproduce zheng2018 tabel-1": "no item of zheng2018 named 'tabel-1': did you mean table-1",
-    "reproduce zheng2018 table-1 figure-9": "no item of zheng2018 named 'figure-9'",
+    "reproduce zheng2018 table-1 figure-19": "no item of zheng2018 named 'figure-19'",
     "reproduce basa2009 table-1": "no item of basa2009 named 'table-1'",
     "reproduce basa2009 --out": "requires an argument",
 }

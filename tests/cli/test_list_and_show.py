@@ -9,8 +9,9 @@ import pytest
 
 from sphear import CORRECTIONS, KERNELS, VISCOSITY, __version__
 from sphear.cases.fields import FIELDS
+from sphear.cases.flow import FLOWS
 from sphear.cases.patch_test import PatchTest
-from sphear.cli.catalogue import CASES
+from sphear.pressure import PRECONDITIONERS
 from sphear.studies import ITEMS, PAPERS
 from sphear.viscosity.card import measured
 
@@ -18,11 +19,17 @@ Run = Callable[..., Any]
 
 REGISTRIES = {"kernels": KERNELS, "viscosity": VISCOSITY, "corrections": CORRECTIONS}
 STUDIES = [f"{paper} {item}" for paper, items in ITEMS.items() for item in items]
-NAMES = {**{kind: list(registry) for kind, registry in REGISTRIES.items()}, "studies": STUDIES, "cases": list(CASES)}
+NAMES = {
+    **{kind: list(registry) for kind, registry in REGISTRIES.items()},
+    "preconditioners": list(PRECONDITIONERS),
+    "studies": STUDIES,
+    "cases": ["patch-test", *FLOWS],
+}
 SINGULAR = {
     "kernel": "kernels",
     "viscous": "viscosity",
     "correction": "corrections",
+    "preconditioner": "preconditioners",
     "study": "studies",
     "case": "cases",
 }
@@ -125,6 +132,25 @@ def test_a_case_is_shown_with_its_fields_and_settings(sphear: Run) -> None:
     facts = sphear("show", "case", "patch-test", "--json").json()
     assert facts["fields"] == list(FIELDS)
     assert facts["settings"] == PatchTest().model_dump(mode="json")
+
+
+@pytest.mark.parametrize("name", list(FLOWS))
+def test_a_flow_is_shown_with_the_settings_of_each_scheme(name: str, sphear: Run) -> None:
+    facts = sphear("show", "case", name.replace("-", "_"), "--json").json()
+    assert facts["schemes"] == list(FLOWS[name].defaults)
+    for scheme in facts["schemes"]:
+        assert facts[scheme] == FLOWS[name].settings(scheme=scheme).model_dump(mode="json")
+
+
+@pytest.mark.parametrize("name", list(PRECONDITIONERS))
+def test_a_preconditioner_is_shown_with_its_formula(name: str, sphear: Run) -> None:
+    for spelling in (name, *PRECONDITIONERS.aliases(name)):
+        facts = sphear("show", "preconditioner", spelling, "--json").json()
+        assert (facts["name"], facts["formula"]) == (name, PRECONDITIONERS[name].formula)
+    listed = {
+        entry["name"]: entry["aliases"] for entry in sphear("list", "preconditioners", "--json").json().popitem()[1]
+    }
+    assert listed[name] == PRECONDITIONERS.aliases(name)
 
 
 @pytest.mark.parametrize("arguments", [("--version",), ("--help",), ("-h",)])

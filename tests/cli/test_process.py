@@ -40,7 +40,7 @@ def started(*arguments: str, module: tuple[str, ...] = ("-m", "sphear"), **optio
 def finished(*arguments: str, **options: Any) -> tuple[int, str, str]:
     process = started(*arguments, **options)
     try:
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=300)
     finally:
         process.kill()
     return process.returncode, out or "", err or ""
@@ -166,7 +166,7 @@ def test_a_terminal_sees_the_progress_and_stdout_stays_empty(terminal: tuple[int
         assert "patch test: 30 particles a side" in read_until("seed", screen)
         process.send_signal(signal.SIGINT)
         read_until(SENTENCE, screen)
-        out, _ = process.communicate(timeout=60)
+        out, _ = process.communicate(timeout=300)
     finally:
         process.kill()
     assert (process.returncode, out) == (130, "")

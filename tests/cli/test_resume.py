@@ -75,6 +75,37 @@ def test_resume_gives_what_an_uninterrupted_run_gives(sphear: Run, interrupted: 
     assert not Path("results/poiseuille-state.npz").exists()
 
 
+def test_another_start_into_the_folder_of_an_interrupted_run_is_refused(sphear: Run, interrupted: Any) -> None:
+    state = Path("results/poiseuille-state.npz")
+    kept = state.read_bytes()
+    again = sphear(*SHORT, "--out", "results")
+    assert (again.status, again.out) == (2, "")
+    assert "holds a run that was interrupted: --resume goes on with it" in again.err
+    assert state.read_bytes() == kept
+
+
+@pytest.mark.parametrize(("earlier", "name"), [(("--until", "0.01"), "until"), (("--set", "max_steps=1"), "max_steps")])
+def test_resume_to_an_earlier_end_is_refused(
+    sphear: Run, interrupted: Any, earlier: tuple[str, ...], name: str
+) -> None:
+    command = ("run", "poiseuille", "--resolution", "10", "--out", "results", "--resume")
+    refused = sphear(*command, *(("--until", "0.1") if name == "max_steps" else ()), *earlier)
+    assert (refused.status, refused.out) == (2, "")
+    assert f"beyond {name} = " in refused.err
+    assert Path("results/poiseuille-state.npz").exists()
+
+
+@pytest.mark.parametrize(
+    "about", ["{}", "[1]", '{"case": "poiseuille", "settings": {}, "history": [{}], "seconds": 1}']
+)
+def test_a_damaged_state_is_one_sentence(sphear: Run, about: str) -> None:
+    Path("results").mkdir()
+    np.savez("results/poiseuille-state.npz", about=np.array(about))
+    outcome = sphear(*SHORT, "--out", "results", "--resume")
+    assert (outcome.status, outcome.out) == (2, "")
+    assert "there is no saved run in" in outcome.err
+
+
 def test_resume_with_other_settings_is_refused(sphear: Run, interrupted: Any) -> None:
     assert interrupted.status == 130
     state = Path("results/poiseuille-state.npz")

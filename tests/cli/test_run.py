@@ -89,6 +89,26 @@ def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
     assert result["metrics"]["failure_time"] > 0
 
 
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["poiseuille", "--set", "shifting_strength=3"], "shifting_strength has no effect with transport=none"),
+        (["poiseuille", "--set", "diffusion_form=antuono"], "diffusion_form has no effect with density_diffusion=0"),
+        (["couette", "--set", "walls=adami", "--set", "wall_velocity=quadratic"], "no effect with walls=adami"),
+        (["poiseuille", "--set", "initial_pressure=5"], "no effect with equation_of_state=batchelor_tait"),
+        (
+            ["cavity", "--scheme", "incompressible", "--set", "shifting=none", "--set", "shifting_strength=2"],
+            "shifting=none",
+        ),
+    ],
+)
+def test_a_setting_without_effect_is_a_warning(sphear: Run, command: list[str], said: str) -> None:
+    out = sphear("run", *command, "--resolution", "10", "--set", "max_steps=1").out
+    assert out.count("warning: ") == 1
+    assert said in out
+    assert "warning" not in sphear("run", "poiseuille", "--resolution", "10", "--set", "max_steps=1").out
+
+
 WRONG: dict[str, tuple[list[str], str]] = {
     "no case": ([], "missing argument 'CASE'"),
     "unknown case": (["poisseuille"], "there is no case named 'poisseuille': did you mean poiseuille"),
@@ -132,6 +152,16 @@ WRONG: dict[str, tuple[list[str], str]] = {
         "wall_particles stand on mirroring walls and walls=adami has none",
     ),
     "no folder": (["poiseuille", "--out", " "], "the output folder needs a name"),
+    "twice": (
+        ["poiseuille", "--reynolds", "1", "--set", "reynolds=2"],
+        "the setting reynolds is given by --reynolds and by --set: choose one",
+    ),
+    "two values": (
+        ["poiseuille", "--set", "seed=1", "--set", "seed=2"],
+        "--set seed is given twice, as 1 and as 2: choose one",
+    ),
+    "other scheme": (["cavity", "--set", "shifting=lind"], "shifting is one of scheme=incompressible, and this is"),
+    "periodic": (["taylor-green", "--resolution", "2"], "the resolution of 2 is too coarse: the kernel's support of"),
 }
 
 

@@ -59,7 +59,9 @@ def test_a_run_that_ctrl_c_ends_says_how_to_go_on_and_does(tmp_path: Path) -> No
     assert [path.name for path in (tmp_path / "results").iterdir()] == ["poiseuille-state.npz"]
     status, out, err = sphear_run(tmp_path, "--json", "--out", "results", "--resume")
     assert (status, err) == (0, "")
-    assert json.loads(out)["metrics"] == json.loads(sphear_run(tmp_path, "--json")[1])["metrics"]
+    whole = json.loads(sphear_run(tmp_path, "--json")[1])
+    # code just compiled and code from the cache may round differently
+    assert json.loads(out)["metrics"] == pytest.approx(whole["metrics"])
     assert not (tmp_path / "results" / "poiseuille-state.npz").exists()
 
 

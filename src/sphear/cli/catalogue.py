@@ -7,22 +7,35 @@ from typing import Any
 
 from sphear.names import unknown
 
-KINDS = ("kernels", "viscosity", "corrections", "studies", "cases")
+KINDS = ("kernels", "viscosity", "corrections", "preconditioners", "studies", "cases")
 _SINGULAR = {
     "kernel": "kernels",
     "correction": "corrections",
+    "preconditioner": "preconditioners",
     "study": "studies",
     "case": "cases",
     "viscous": "viscosity",
 }
 
-# the patch test has a command of its own, the flows are run by `sphear run`; their summaries stand here so that listing
-# them imports nothing
+# the patch test has a command of its own, the flows are run by `sphear run`; summaries stand here so that listing them
+# imports nothing
 CASES = {
     "patch-test": "the Laplacian of a known field on a lattice or on jittered particles, against the exact one",
     "poiseuille": "plane Poiseuille flow from rest, against its start-up series",
     "couette": "plane Couette flow from rest, against its start-up series",
     "taylor-green": "the decaying Taylor-Green vortex in a periodic box",
+    "cavity": "the lid-driven square cavity from rest, against computed and published profiles",
+    "cavity-cylinder": "the lid-driven cavity with a cylinder inside, of any size at any place",
+    "dam-break": "a column of fluid that collapses in a tank, against the measured front",
+}
+
+PRECONDITIONERS = {  # aliases and summary
+    "jacobi": (["diagonal"], "the diagonal alone: costs nothing, needs iterations in proportion to particles a side"),
+    "grid": (
+        ["spectral", "cosine", "fourier"],
+        "a background grid for what is smooth, beside damped Jacobi for what is not; for fluid in a box",
+    ),
+    "amg": (["multigrid", "pyamg", "ruge_stuben"], "algebraic multigrid: knows the matrix alone, for any geometry"),
 }
 
 
@@ -39,6 +52,8 @@ def entries(kind: str) -> list[dict[str, Any]]:
     """Name, aliases and a line about each thing of a kind."""
     if kind == "cases":
         return [{"name": name, "aliases": [], "summary": text} for name, text in CASES.items()]
+    if kind == "preconditioners":
+        return [{"name": name, "aliases": both[0], "summary": both[1]} for name, both in PRECONDITIONERS.items()]
     if kind == "studies":
         from sphear.studies import ITEMS
 
@@ -62,6 +77,10 @@ def _registry(kind: str) -> Any:
         from sphear.corrections import CORRECTIONS
 
         return CORRECTIONS
+    if kind == "preconditioners":
+        from sphear.pressure import PRECONDITIONERS
+
+        return PRECONDITIONERS
     from sphear.viscosity import VISCOSITY
 
     return VISCOSITY
@@ -85,7 +104,9 @@ def described(kind: str, name: str) -> dict[str, Any]:
         from sphear.viscosity.card import card
 
         return facts | card(item, facts["name"]).as_dict()
-    facts |= {"summary": _first_line(item), "formula": item.formula, "source": item.source}
+    facts |= {"summary": _first_line(item), "formula": item.formula}
+    if kind != "preconditioners":
+        facts["source"] = item.source
     if kind == "kernels":
         facts |= {"support": f"{item.support:g} h", "sigma": dict(zip(("1-D", "2-D", "3-D"), item.sigma, strict=True))}
     return facts
@@ -100,13 +121,15 @@ def _described_study(name: str) -> dict[str, Any]:
 
 
 def _described_case(name: str) -> dict[str, Any]:
+    name = name.replace("_", "-")
     if name not in CASES:
         raise unknown("case", name, CASES)
     if name != "patch-test":
         from sphear.cases.flow import FLOWS
 
-        flow = FLOWS[name].settings().model_dump(mode="json")
-        return {"kind": "cases", "name": name, "summary": CASES[name], "settings": flow}
+        case = FLOWS[name]
+        settings = {scheme: case.settings(scheme=scheme).model_dump(mode="json") for scheme in case.defaults}
+        return {"kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings}
     from sphear.cases.fields import FIELDS
     from sphear.cases.patch_test import PatchTest
 

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
 
 
 def run(
-    case: str = typer.Argument(..., metavar="CASE", help="poiseuille, couette, taylor-green or cavity."),
+    case: str = typer.Argument(..., metavar="CASE", help="A flow: sphear list cases."),
     texts: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="Any setting; may be repeated."),
     viscosity: str | None = typer.Option(None, "--viscosity", "-v", help="A viscous term."),
     correction: str | None = typer.Option(None, help="A consistency correction."),
     reynolds: float | None = typer.Option(None, help="The Reynolds number, as the case defines it."),
     resolution: int | None = typer.Option(None, help="Particles across the flow."),
+    scheme: str | None = typer.Option(None, help="explicit (weakly compressible, compressible) or incompressible."),
     until: float | None = typer.Option(None, help="When to stop, in the time unit of the case."),
     preset: str | None = typer.Option(None, help="Settings by name: paper or modern; other options go before them."),
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
@@ -35,25 +36,33 @@ def run(
 ) -> None:
     """Compute a flow from its start to its end, or to its failure."""
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.schemes.presets import PRESETS
+    from sphear.schemes.presets import preset_settings
     from sphear.sweeps import flow_settings
 
     files = folder(out)
     chosen = FLOWS[case.replace("_", "-")]
     given = {
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
-        "until": until, "force": force or None,
+        "until": until, "scheme": scheme, "force": force or None,
     }  # fmt: skip
     if resume and files is None:
         raise SphearError("--resume goes on with the run of a folder: name it by --out DIR")
-    together = dict(PRESETS[preset]) if preset is not None else {}
-    settings = flow_settings(
-        chosen, together | changes(texts) | {key: value for key, value in given.items() if value is not None}
-    )
+    named = {key: value for key, value in given.items() if value is not None}
+    wanted: dict[str, Any] = dict(changes(texts))
+    if both := next((key for key in named if key in wanted), None):
+        raise SphearError(f"the setting {both} is given by --{both} and by --set: choose one")
+    wanted |= named
+    together = preset_settings(preset, str(wanted.get("scheme", next(iter(chosen.defaults))))) if preset else {}
+    settings = flow_settings(chosen, together | wanted)
     flow = FlowRun(chosen, settings)
     keep = None if files is None else files.path / f"{chosen.name}-state.npz"
     if resume and keep is not None:
         flow.restore(keep)
+    elif keep is not None and keep.exists():
+        raise SphearError(
+            f"{keep} holds a run that was interrupted: --resume goes on with it; a new one needs another --out, or that"
+            " file deleted"
+        )
     if not as_json:
         print_text(_start(flow))
     if keep is not None:
@@ -93,12 +102,13 @@ def _start(run: FlowRun) -> str:
     neighbours = math.pi * (flow.kernel.radius / flow.problem.spacing) ** 2 - 1
     lines = [
         f"{run.case.name}: {len(flow.positions)} particles, Re = {settings.reynolds:g},"
-        f" nu = {flow.problem.kinematic_viscosity:g}, {settings.viscosity}, correction {settings.correction}",
-        f"  sound speed {flow.sound_speed:g}, about {neighbours:.0f} neighbours, time step {flow.time_step:.4g}"
+        f" nu = {flow.problem.kinematic_viscosity:g}, {settings.viscosity}, {settings.scheme} scheme",
+        f"  {flow.introduction()}, about {neighbours:.0f} neighbours, time step {flow.time_step:.4g}"
         f" ({limit.replace('_', '-')} limit {longest:.4g})",
     ]
     if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
+    lines += [f"  warning: {said}" for said in settings.without_effect()]
     steps = min(run.planned * run.unit / flow.time_step, settings.max_steps)
     end = f"{run.case.time_name} = {steps * flow.time_step / run.unit:.4g}"
     lines.append(f"  from step {flow.steps} to about step {steps:.0f}, {end}; Ctrl-C ends it before")
@@ -142,16 +152,21 @@ def _summary(metrics: dict[str, Any], table: Table) -> str:
 
 
 def _figure(run: FlowRun) -> Figure:
+    import numpy as np
+
     from sphear.results.figure import flow_panels
 
     times = [row["time"] for row in run.history]
     name = run.case.headline
+    places, velocities = run.flow.positions, run.flow.velocities
+    plane = places.shape[1] == 2 and bool(np.isfinite(places + velocities).all())
     return flow_panels(
         run.case.comparisons(run.settings, run.flow),
         (times, [row[name] for row in run.history]),
         (run.case.time_name, name.replace("_", " ")),
         f"{run.case.name}: {run.settings.viscosity}, Re = {run.settings.reynolds:g},"
         f" {run.case.time_name} = {times[-1]:.3g}",
+        (places, velocities, run.flow.problem.spacing) if plane else None,
     )
 
 

@@ -21,8 +21,18 @@ def key_and_value(option: str, text: str, example: str) -> tuple[str, str]:
 
 
 def changes(texts: Iterable[str]) -> dict[str, str]:
-    """The settings that `--set` changes; the last of a key counts."""
-    return dict(key_and_value("--set", text, "kernel=wendland_c2") for text in texts)
+    """The settings that `--set` changes.
+
+    Raises:
+        SphearError: a key without a value, or given twice.
+    """
+    found: dict[str, str] = {}
+    for text in texts:
+        key, value = key_and_value("--set", text, "kernel=wendland_c2")
+        if key in found:
+            raise SphearError(f"--set {key} is given twice, as {found[key]} and as {value}: choose one")
+        found[key] = value
+    return found
 
 
 def choices(texts: Iterable[str]) -> dict[str, list[str]]:

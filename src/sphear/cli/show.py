@@ -12,7 +12,9 @@ from sphear.cli.output import print_json, print_text
 
 
 def show(
-    kind: str = typer.Argument(..., metavar="KIND", help="kernels, viscosity, corrections, studies or cases."),
+    kind: str = typer.Argument(
+        ..., metavar="KIND", help="kernels, viscosity, corrections, preconditioners, studies or cases."
+    ),
     name: list[str] = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),
 ) -> None:

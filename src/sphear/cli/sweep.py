@@ -20,7 +20,7 @@ LOST = 1  # exit status
 
 
 def sweep(
-    case: str = typer.Argument(..., metavar="CASE", help="poiseuille, couette or taylor-green."),
+    case: str = typer.Argument(..., metavar="CASE", help="A flow: sphear list cases."),
     over: list[str] = typer.Option((), "--over", metavar="KEY=V1,V2,...", help="Values of a setting; may be repeated."),
     texts: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="A setting of all runs; may be repeated."),
     workers: int | None = typer.Option(None, help="Processes; 1 if not given."),
