@@ -39,7 +39,8 @@ def test_flows_on_two_workers_are_those_of_one_process(address: str, tmp_path: P
     runs = plan("poiseuille", {"resolution": [8, 9, 10]}, {"until": 0.05})
     here = run_sweep(runs, Store(tmp_path / "here"))
     there = run_sweep(runs, Store(tmp_path / "there"), scheduler=address)
-    assert [result.metrics for result in there] == [result.metrics for result in here]
+    for far, near in zip(there, here, strict=True):  # code just compiled and code from the cache may round differently
+        assert far.metrics == pytest.approx(near.metrics)
     assert len(list((tmp_path / "there").iterdir())) == 3
 
 

@@ -34,6 +34,11 @@ def test_long_runs_come_first(sweep: Sweep, calls: Calls) -> None:
     assert calls() == [40, 30, 20, 10]
 
 
+def test_short_runs_come_first_where_that_is_asked_for(sweep: Sweep, calls: Calls) -> None:
+    sweep([10, 30, 20, 40], longest_first=False)
+    assert calls() == [10, 20, 30, 40]
+
+
 def test_a_worker_is_kept_for_all_its_runs_and_has_one_thread(sweep: Sweep) -> None:
     results = sweep([10, 20, 30])
     assert len({result.performance["pid"] for result in results}) == 1

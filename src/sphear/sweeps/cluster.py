@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Generator, Sequence
 from contextlib import suppress
 from importlib import import_module
@@ -14,6 +15,7 @@ from sphear.sweeps.plan import Run
 from sphear.sweeps.worker import call
 
 CONNECT = 10.0  # seconds to find the scheduler
+ADDRESS = re.compile(r"inproc://\S+|([a-z]+://)?(\[[0-9a-fA-F:]+\]|[^\s:/\[\]]+):\d+")
 LOOK = 2.0  # seconds after which workers that have come are noticed
 
 
@@ -32,6 +34,8 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
         SphearError: Dask is not installed, or the scheduler does not answer.
     """
     distributed = _distributed()
+    if not ADDRESS.fullmatch(address.strip()):
+        raise SphearError(f"the scheduler {address} does not answer: an address is written as tcp://host:8786")
     log = logging.getLogger("distributed.client")
     level = log.level
     log.setLevel(logging.CRITICAL)  # it would show tracebacks of what is said in a sentence below

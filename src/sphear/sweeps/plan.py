@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 from sphear.checked import checked
 from sphear.errors import SphearError
-from sphear.names import unknown
+from sphear.names import Registry
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
     from sphear.cases.flow import FlowCase
-    from sphear.schemes.settings import FlowSettings
+    from sphear.schemes.base import Settings
 
 UNTIL_STEADY = 20.0  # time units, the guess where the case says when a run is over
 IMMATERIAL = ("force", "threads")  # settings that do not change what a run finds
@@ -33,21 +33,27 @@ class Run:
     """
 
     case: str
-    settings: FlowSettings
+    settings: Settings
 
     def __post_init__(self) -> None:
         from sphear.boundaries import WALL_VELOCITIES
         from sphear.cases.flow import FLOWS
         from sphear.corrections import CORRECTIONS
         from sphear.kernels import KERNELS
+        from sphear.pressure import PRECONDITIONERS
         from sphear.viscosity import VISCOSITY
 
-        names = {
-            "viscosity": VISCOSITY.name(self.settings.viscosity),
-            "correction": CORRECTIONS.name(self.settings.correction),
-            "kernel": KERNELS.name(self.settings.kernel),
-            "wall_velocity": WALL_VELOCITIES.name(self.settings.wall_velocity),
+        registries: dict[str, Registry[Any]] = {
+            "viscosity": VISCOSITY,
+            "correction": CORRECTIONS,
+            "gradient_correction": CORRECTIONS,
+            "kernel": KERNELS,
+            "laplacian": VISCOSITY,
+            "wall_velocity": WALL_VELOCITIES,
+            "preconditioner": PRECONDITIONERS,
         }
+        given = {key: getattr(self.settings, key) for key in registries if hasattr(self.settings, key)}
+        names = {key: registries[key].name(value) for key, value in given.items()}
         object.__setattr__(self, "case", FLOWS.name(self.case))
         object.__setattr__(self, "settings", self.settings.model_copy(update=names))
 
@@ -66,7 +72,10 @@ class Run:
         matter = {name: value for name, value in self.given.items() if name not in IMMATERIAL and value != usual[name]}
         digest = hashlib.sha256(json.dumps([self.case, matter], sort_keys=True).encode()).hexdigest()[:16]
         chosen = self.settings
-        readable = f"{self.case}-{chosen.viscosity}-{chosen.correction}-re{chosen.reynolds:g}-n{chosen.resolution}"
+        scheme = "" if chosen.scheme == "explicit" else f"{chosen.scheme}-"
+        readable = (
+            f"{self.case}-{scheme}{chosen.viscosity}-{chosen.correction}-re{chosen.reynolds:g}-n{chosen.resolution}"
+        )
         return f"{re.sub(r'[^A-Za-z0-9.+_-]', '_', readable)}-{digest}"
 
     @cached_property
@@ -85,18 +94,19 @@ class Run:
         return len(run.flow.positions) * min(until * run.unit / run.flow.time_step, self.settings.max_steps)
 
 
-def flow_settings(case: FlowCase, changes: Mapping[str, Any]) -> FlowSettings:
+def flow_settings(case: FlowCase, changes: Mapping[str, Any]) -> Settings:
     """The settings of a case with some changed, each checked by itself.
 
     Raises:
         SphearError: there is no such setting, or its value is wrong.
     """
-    from sphear.schemes.settings import FlowSettings
+    from sphear.schemes.base import unknown_setting
 
-    known = list(FlowSettings.model_fields)
+    scheme = str(changes.get("scheme", next(iter(case.defaults))))
+    known = case.kind(scheme).model_fields
     for key in changes:
         if key not in known:
-            raise unknown("setting", key, known)
+            raise unknown_setting(key, known, scheme)
     with checked("the setting "):
         return case.settings(**changes)
 

@@ -27,8 +27,9 @@ def run_sweep(
     scheduler: str | None = None,
     progress: Progress = no_progress,
     compute: str = COMPUTE,
+    longest_first: bool = True,
 ) -> list[SweepResult]:
-    """Compute runs that are not stored yet, the long ones first, and store each as it ends.
+    """Compute runs that are not stored yet and store each as it ends.
 
     A run that is lost (its worker was killed, or something unexpected happened) is not stored; the others go on, and
     the next call computes it again. Ctrl-C ends the workers and keeps what is stored.
@@ -40,6 +41,7 @@ def run_sweep(
         scheduler: address of a Dask scheduler, whose workers are used instead.
         progress: is told where the sweep stands, whenever that changes.
         compute: import path, `module:name`, of the function that computes a run from its case and settings.
+        longest_first: the long ones first, so that all workers end together; else the short ones.
 
     Returns:
         The results, in the order of the runs.
@@ -53,7 +55,7 @@ def run_sweep(
     known = {run.key: store.get(run) for run in runs}
     results = {key: result for key, result in known.items() if result is not None}
     todo = list({run.key: run for run in runs if run.key not in results}.values())
-    todo.sort(key=lambda run: -run.cost)
+    todo.sort(key=lambda run: run.cost, reverse=longest_first)
     tracker = Tracker(list(results.values()), todo)
     progress(tracker.state())
     if todo:

@@ -47,9 +47,8 @@ def call(path: str, case: str, settings: dict[str, Any]) -> dict[str, Any]:
 def compute(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, on one thread where the settings do not say how many."""
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.schemes.settings import FlowSettings
     from sphear.sweeps.result import record
 
     if settings.get("threads", 1) is None:
         settings = {**settings, "threads": 1}
-    return record(FlowRun(FLOWS[case], FlowSettings.model_validate(settings)).run())
+    return record(FlowRun(FLOWS[case], FLOWS[case].settings(**settings)).run())
