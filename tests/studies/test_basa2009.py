@@ -13,8 +13,9 @@ import pytest
 from sphear.cases.flow.poiseuille import POISEUILLE
 from sphear.results import OutputFolder
 from sphear.studies import reproduce
+from sphear.studies.basa2009.drift import drifts, growth
 from sphear.studies.basa2009.figure_1 import POINTS, lattice_sums, second_derivatives
-from sphear.studies.basa2009.figure_7 import _drifts, _growth, widths
+from sphear.studies.basa2009.figure_7 import widths
 from sphear.studies.basa2009.lattice import sliding_growth
 from sphear.studies.kept import as_text, kept
 from sphear.studies.result import StudyResult
@@ -202,10 +203,10 @@ def test_disorder_at_the_start_brings_the_failure_forward() -> None:
 
 def test_a_growth_rate_is_found() -> None:
     times = np.linspace(0, 100, 201)
-    found = _growth(times, 1e-15 * np.exp(0.3 * times))
+    found = growth(times, 1e-15 * np.exp(0.3 * times))
     assert found["growth"] == pytest.approx(0.3)
     assert found["explained"] == pytest.approx(1)
-    assert _growth(times, np.full(201, 1e-15)) == {"growth": None, "explained": None}
+    assert growth(times, np.full(201, 1e-15)) == {"growth": None, "explained": None}
 
 
 def test_crossings_are_widths_over_the_centreline_velocity() -> None:
@@ -217,6 +218,6 @@ def test_drifts_are_of_neighbours_and_rows_move_together() -> None:
     start = np.tile([0.0, 1.0, 2.0], (3, 1))
     later = start + np.array([0.0, 0.5, 0.0])  # one row as a whole
     later[1, 2] += 0.25  # one particle out of its row
-    found = _drifts(np.array([later]), start, 0.5)
+    found = drifts(np.array([later]), start, 0.5)
     assert (found["row"], found["largest"], found["median"]) == (0, [0.5], [0.0])
     assert found["together"] == [1.0]

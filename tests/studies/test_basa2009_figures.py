@@ -15,7 +15,7 @@ from sphear.errors import SphearError
 from sphear.references.cavity import mac
 from sphear.results import OutputFolder
 from sphear.studies import ITEMS
-from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10
+from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10, robustness_results
 from sphear.studies.basa2009.robustness import TERMS
 from sphear.studies.kept import as_text, kept
 from sphear.studies.result import StudyResult
@@ -78,12 +78,12 @@ def channel(reynolds: float, end: str, history: list[tuple[float, float | None]]
     ],
 )
 def test_a_run_has_failed_at_the_first_output_beyond_the_threshold(history: Any, time: float) -> None:
-    (row,) = figure_5.entries([channel(3.0, "failed: so", history)])["runs"]
+    (row,) = robustness_results.entries([channel(3.0, "failed: so", history)])["runs"]
     assert row["time"] == time
 
 
 def test_a_run_that_did_not_fail_ends_with_its_last_output() -> None:
-    found = figure_5.entries([channel(0.5, "steady", [(1.0, 0.2), (27.7, 0.01)])])
+    found = robustness_results.entries([channel(0.5, "steady", [(1.0, 0.2), (27.7, 0.01)])])
     (row,) = found["runs"]
     assert (row["end"], row["time"], row["steps"], row["rms_error"]) == ("steady", 27.7, 20, 0.01)
     assert row["history"] == [[1.0, 0.2], [27.7, 0.01]]
@@ -91,7 +91,7 @@ def test_a_run_that_did_not_fail_ends_with_its_last_output() -> None:
 
 
 def test_histories_are_kept_of_the_reynolds_number_whose_errors_are_drawn() -> None:
-    (row,) = figure_5.entries([channel(3.0, "steady", [(1.0, 0.2)])])["runs"]
+    (row,) = robustness_results.entries([channel(3.0, "steady", [(1.0, 0.2)])])["runs"]
     assert "history" not in row
 
 
@@ -106,14 +106,16 @@ def test_histories_are_kept_of_the_reynolds_number_whose_errors_are_drawn() -> N
     ],
 )
 def test_the_highest_steady_number_has_only_steady_ones_below(ends: dict[float, str], highest: float) -> None:
-    assert figure_5.highest_steady([{"reynolds": number, "end": end} for number, end in ends.items()]) == highest
+    assert (
+        robustness_results.highest_steady([{"reynolds": number, "end": end} for number, end in ends.items()]) == highest
+    )
 
 
 def test_the_error_at_a_time_is_that_of_the_nearest_output_and_infinite_after_a_failure() -> None:
     row: Row = {"end": "steady", "time": 9.0, "history": [[1.0, 0.1], [4.8, 0.2], [9.0, None]]}
-    assert figure_5.error_at(row, 5.0) == 0.2
-    assert figure_5.error_at({**row, "end": "failed: x", "time": 4.9}, 5.0) == math.inf
-    assert figure_5.error_at({"end": "steady", "time": 9.0}, 5.0) == math.inf
+    assert robustness_results.error_at(row, 5.0) == 0.2
+    assert robustness_results.error_at({**row, "end": "failed: x", "time": 4.9}, 5.0) == math.inf
+    assert robustness_results.error_at({"end": "steady", "time": 9.0}, 5.0) == math.inf
 
 
 # what the paper says: the Re up to which each term is steady uncorrected and with level 0, and its error at Re = 0.5
@@ -133,7 +135,7 @@ def robustness(changes: dict[str, tuple[float, float, float]]) -> Row:
                 end, at = ("steady", 28.0) if reynolds <= highest else ("failed: so", 6.0)
                 history: list[tuple[float, float | None]] = [(5.0, error), (at, error if end == "steady" else 0.5)]
                 results.append(channel(reynolds, end, history, viscosity=term, correction=correction))
-    return figure_5.entries(results)
+    return robustness_results.entries(results)
 
 
 @pytest.mark.parametrize(
@@ -152,7 +154,7 @@ def test_figure_5_agrees_with_the_paper_as_far_as_the_numbers_do(changes: Any, v
 
 def test_figure_5_says_the_numbers_and_is_drawn(tmp_path: Path) -> None:
     data = robustness({})
-    modern = figure_5.entries([channel(0.5, "steady", [(5.0, 0.001), (28.0, 0.0015)])])
+    modern = robustness_results.entries([channel(0.5, "steady", [(5.0, 0.001), (28.0, 0.0015)])])
     result = figure_5.present({**data, "modern_settings": modern["settings"], "modern": modern["runs"]})
     assert "takeda 0 (3)" in result.finding
     assert "violeau 6.00%" in result.finding
@@ -178,6 +180,49 @@ def test_the_energy_is_under_predicted_if_it_is_so_at_the_higher_number() -> Non
     assert figure_9.present({"runs": [low, high]}).agrees == "yes"
     assert figure_9.present({"runs": [low, {**high, "kinetic_energy_error": 0.01}]}).agrees == "partly"
     assert figure_9.present({"runs": [low]}).agrees == "partly"
+
+
+WHOLE = {"takeda": -0.3, "violeau": -0.25, "cleary_4.24": -0.2, "morris": -0.28}
+
+
+@pytest.mark.parametrize(
+    ("term", "changes", "broken"),
+    [
+        ("takeda", {"kinetic_energy_error": -0.1}, "and than A"),
+        ("violeau", {"kinetic_energy_error": -0.1}, "D is closer there than C and E"),
+        ("takeda", {"end": "failed: so"}, "A is stable when corrected"),
+        ("two_pass", {"end": "time", "kinetic_energy_error": -0.9}, "B fails there when corrected"),
+        ("violeau", {"energy": [[0.0, 0.0], [40.0, 0.1], [80.0, 0.03]]}, "E has the largest spikes"),
+        ("morris", {"kinetic_energy_error": 0.5}, "all under-predict at Re = 1000"),
+    ],
+)
+def test_each_part_of_the_claim_about_energies_is_judged(term: str, changes: dict[str, Any], broken: str) -> None:
+    rows = [
+        {
+            **cavity(1000.0, name, 0.01, energy),
+            "correction": "shepard",
+            "energy": [[0.0, 0.0], [40.0, 0.02], [80.0, 0.03]],
+        }
+        for name, energy in WHOLE.items()
+    ]
+    rows[-1]["energy"] = [[0.0, 0.0], [40.0, 0.05], [80.0, 0.03]]
+    rows.append({**cavity(1000.0, "two_pass", 0.0, end="failed: so"), "correction": "shepard"})
+    held, agrees = figure_9.judged(rows)
+    assert (all(held.values()), len(held), agrees) == (True, 6, "yes")
+    held, agrees = figure_9.judged([{**row, **changes} if row["viscosity"] == term else row for row in rows])
+    assert (held[broken], agrees) == (False, "partly")
+
+
+@pytest.mark.parametrize(("error", "verdict"), [(-0.1, "yes"), (0.1, "no")])
+def test_the_energies_are_told_from_the_least_to_the_most(error: float, verdict: str) -> None:
+    rows = [cavity(1000.0, "morris", 0.01, -0.2), cavity(1000.0, "takeda", 0.01, error)]
+    lost = cavity(1000.0, "two_pass", 0.0, end="failed: so")
+    said, agrees = figure_9.under_predicted([*rows, lost])
+    assert said == (
+        f"at t = 80 from -20.0% (morris, no correction) to {error:+.1%} (takeda, no correction); failed before: 1"
+    )
+    assert agrees == verdict
+    assert figure_9.under_predicted([lost])[1] == "partly"
 
 
 def test_the_best_term_is_the_one_with_the_least_deviation_at_both_numbers() -> None:

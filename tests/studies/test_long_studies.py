@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from sphear import studies
 from sphear.results import OutputFolder
 from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10
+from sphear.studies.basa2009.robustness import MODERN_REYNOLDS
 from sphear.studies.kept import LongStudy, as_text, kept
 from sphear.studies.result import no_progress
 from sphear.sweeps import plan
@@ -65,13 +66,6 @@ def test_an_unknown_item_is_named_with_the_nearest() -> None:
         studies.reproduce("basa2009", "figure-55")
 
 
-@pytest.fixture
-def own_store(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
-    """Runs are kept here and not in the user's folder."""
-    monkeypatch.setattr(import_module("sphear.engine.cache"), "cache_directory", lambda: tmp_path)
-    return tmp_path
-
-
 def test_the_channels_are_computed_and_presented(own_store: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     short: dict[str, Any] = {"resolution": 10, "until": 0.05}
     over = {"viscosity": ("violeau", "morris"), "reynolds": (0.3, 0.5)}
@@ -91,6 +85,14 @@ def test_the_channels_are_computed_and_presented(own_store: Path, monkeypatch: p
     assert figure_5.compute(quick=True, workers=1, progress=again.append) == data  # the runs are kept
     assert len(list(own_store.rglob("*.json"))) == 4  # that of the modern settings is one of the others here
     assert figure_5.present(data).agrees == "partly"
+
+
+def test_the_modern_channels_reach_the_steady_state_at_every_reynolds_number() -> None:
+    data = kept("basa2009", "figure-5")
+    assert {row["reynolds"]: row["end"] for row in data["modern"]} == dict.fromkeys(MODERN_REYNOLDS, "steady")
+    assert max(MODERN_REYNOLDS) == 1000
+    assert max(row["rms_error"] for row in data["modern"]) < 2e-4
+    assert (data["modern_settings"]["resolution"], data["modern_settings"]["slip"]) == (20, False)
 
 
 def test_no_modern_channel_that_reached_the_steady_state_is_said() -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 from importlib.resources import files
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from sphear.errors import SphearError
@@ -11,7 +13,7 @@ from sphear.results.finite import finite
 from sphear.studies.result import Progress, StudyResult
 
 if TYPE_CHECKING:
-    from sphear.sweeps import Run, SweepResult
+    from sphear.sweeps import Run, Store, SweepResult
 
 
 class LongStudy(Protocol):
@@ -50,17 +52,54 @@ def as_text(data: dict[str, Any]) -> str:
     return "{\n " + ",\n ".join(lines) + "\n}\n"
 
 
-def swept(runs: list[Run], paper: str, workers: int, progress: Progress) -> list[SweepResult]:
-    """The results of runs, each kept as it ends in the user's cache folder: an interrupted study goes on from there.
+def runs_folder(paper: str) -> Path:
+    """Where the runs of a paper's studies are kept: in `$SPHEAR_RUNS_DIR`, else in the user's cache folder."""
+    from sphear.engine.cache import cache_directory
+
+    chosen = os.environ.get("SPHEAR_RUNS_DIR")
+    return (Path(chosen) if chosen else cache_directory() / "runs") / paper
+
+
+def store(paper: str) -> Store:
+    """The runs of a paper's studies."""
+    from sphear.sweeps import Store
+
+    return Store(runs_folder(paper))
+
+
+def swept(
+    runs: list[Run],
+    paper: str,
+    workers: int,
+    progress: Progress,
+    *,
+    compute: str | None = None,
+    longest_first: bool = True,
+) -> list[SweepResult]:
+    """The results of runs, each kept as it ends (`runs_folder`): an interrupted study goes on from there.
+
+    Args:
+        runs: what to compute.
+        paper: whose runs they are.
+        workers: processes.
+        progress: told where the sweep stands.
+        compute: import path of the function that computes a run, where it is not the usual one.
+        longest_first: else the short ones.
 
     Raises:
         SphearError: a run was lost.
     """
-    from sphear.engine.cache import cache_directory
-    from sphear.sweeps import Store, run_sweep
+    from sphear.sweeps import run_sweep
+    from sphear.sweeps.worker import COMPUTE
 
-    store = Store(cache_directory() / "runs" / paper)
-    results = run_sweep(runs, store, workers=workers, progress=lambda state: progress(str(state)))
+    results = run_sweep(
+        runs,
+        store(paper),
+        workers=workers,
+        progress=lambda state: progress(str(state)),
+        compute=compute or COMPUTE,
+        longest_first=longest_first,
+    )
     lost = [result for result in results if result.lost]
     if lost:
         raise SphearError(
