@@ -9,7 +9,7 @@ import numpy as np
 from sphear.cases.flow.poiseuille import FAILED, HALF_WIDTH, POISEUILLE, reference
 from sphear.operators import arguments
 from sphear.results.table import Column, Table
-from sphear.schemes.flow import FlowFailure
+from sphear.schemes.base import FlowFailure
 from sphear.schemes.settings import FlowSettings
 from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
 from sphear.studies.basa2009.channel import significant as kept
@@ -39,7 +39,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for reduction, reynolds in plan[:2] if quick else plan:
         progress(f"pressure reduction {reduction}, Re = {reynolds:g}")
-        settings = POISEUILLE.settings(
+        settings = POISEUILLE.explicit(
             viscosity="morris",
             equation_of_state="ideal_gas",
             pressure_reduction=reduction,
@@ -134,7 +134,7 @@ def present(data: dict[str, Any]) -> StudyResult:
 
 
 def _of_none(row: dict[str, Any], resolution: int) -> str:
-    settings = POISEUILLE.settings(reynolds=row["reynolds"])
+    settings = POISEUILLE.explicit(reynolds=row["reynolds"])
     seconds = row["failure_time"] * POISEUILLE.time_unit(settings)
     moved = 0.5 * reference(settings).body_force * seconds**2 * resolution / (2 * HALF_WIDTH)
     grows = "" if row["growth"] is None else f" and grows at {row['growth']:.3g} / t*"
@@ -146,7 +146,7 @@ def _of_none(row: dict[str, Any], resolution: int) -> str:
 
 def _theory() -> float:
     """The growth rate on an infinite lattice, in 1 / t*."""
-    settings = POISEUILLE.settings(reynolds=REYNOLDS, equation_of_state="ideal_gas")
+    settings = POISEUILLE.explicit(reynolds=REYNOLDS, equation_of_state="ideal_gas")
     spacing = 2 * HALF_WIDTH / settings.resolution
     kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, spacing)
     rate, _ = sliding_growth(settings.initial_pressure, spacing, kernel.h)
@@ -159,7 +159,7 @@ def _figure(data: dict[str, Any], title: str) -> Figure:
     panels = {}
     y = np.linspace(-HALF_WIDTH, HALF_WIDTH, 201)
     for run in data["runs"]:
-        settings = POISEUILLE.settings(reynolds=run["reynolds"])
+        settings = POISEUILLE.explicit(reynolds=run["reynolds"])
         flow, unit = reference(settings), POISEUILLE.time_unit(settings)
         if run["reynolds"] == REYNOLDS:
             panels[f"pressure reduction: {run['pressure_reduction']}"] = [

@@ -8,7 +8,7 @@ import numpy as np
 
 from sphear.cases.flow.poiseuille import HALF_WIDTH, POISEUILLE, reference
 from sphear.results.table import Column, Table
-from sphear.schemes.flow import FlowFailure
+from sphear.schemes.base import FlowFailure
 from sphear.schemes.settings import FlowSettings
 from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
 from sphear.studies.basa2009.channel import significant as kept
@@ -38,7 +38,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for viscosity, correction, name, on_wall in plan[:2] if quick else plan:
         progress(f"{viscosity}, {name}{', wall particles' if on_wall else ''}")
-        settings = POISEUILLE.settings(
+        settings = POISEUILLE.explicit(
             viscosity=viscosity,
             correction=correction,
             equation_of_state="ideal_gas",
@@ -136,7 +136,7 @@ def _of_wall_particles(rows: list[dict[str, Any]], plain: list[dict[str, Any]]) 
 def _figure(data: dict[str, Any], title: str) -> Figure:
     from sphear.results.figure import Lines, line_panels
 
-    settings = POISEUILLE.settings(reynolds=data["reynolds"])
+    settings = POISEUILLE.explicit(reynolds=data["reynolds"])
     flow, unit = reference(settings), POISEUILLE.time_unit(settings)
     edge = -HALF_WIDTH + 6 * 2 * HALF_WIDTH / data["resolution"]
     y = np.linspace(-HALF_WIDTH, edge, 101)

@@ -8,17 +8,22 @@ from itertools import product
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
-from sphear.cases.flow import FLOWS
-from sphear.cases.flow.poiseuille import HALF_WIDTH, threshold
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS, TERMS, modern_runs, runs
+from sphear.studies.basa2009.robustness_results import (
+    Row,
+    entries,
+    error_at,
+    highest_steady,
+    outcome,
+    percent,
+    select,
+)
 from sphear.studies.kept import swept
 from sphear.studies.result import Agreement, Progress, StudyResult
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from sphear.sweeps import SweepResult
 
 CLAIM = (
     "model A fails without correction and is cured by level 0; B is the least robust but accurate; D and E are the best"
@@ -26,9 +31,6 @@ CLAIM = (
 )
 LABELS = {"batchelor_tait": "weakly compressible", "ideal_gas": "compressible"}
 LEVELS = {"none": "no correction", "shepard": "level 0", "bonet_lok": "level 1"}
-SWEPT = ("equation_of_state", "correction", "viscosity", "reynolds")
-
-Row = dict[str, Any]
 
 
 def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
@@ -36,56 +38,6 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     modern = entries(swept(modern_runs(quick), "basa2009", workers, progress))
     found = entries(swept(runs(quick), "basa2009", workers, progress))
     return {**found, "modern_settings": modern["settings"], "modern": modern["runs"]}
-
-
-def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
-    """What is kept: how each run ended, and the errors over time of those whose error is drawn."""
-    found = []
-    for result in results:
-        row: Row = {key: result.settings[key] for key in SWEPT}
-        row |= {"end": result.end, "time": _end(result), "steps": result.metrics["steps"]}
-        row["rms_error"] = result.metrics["rms_error"]
-        if row["reynolds"] == ERROR_REYNOLDS:
-            row["history"] = [[_short(step["time"]), _short(step["rms_error"])] for step in result.history]
-        found.append(row)
-    derived = ("sound_speed", "time_step", "kinematic_viscosity", "until", "force", "threads")
-    common = {key: value for key, value in results[0].settings.items() if key not in (*SWEPT, *derived)}
-    return {"settings": common, "runs": found}
-
-
-def _end(result: SweepResult) -> float:
-    """t* at which a run ended; of one that failed, of the first of its kept outputs beyond the threshold."""
-    settings = FLOWS["poiseuille"].settings(reynolds=result.settings["reynolds"])
-    unit, spacing = FLOWS["poiseuille"].time_unit(settings), 2 * HALF_WIDTH / result.settings["resolution"]
-    if result.failed:
-        for row in result.history:
-            if row["rms_error"] is None or row["rms_error"] >= threshold(row["time"] * unit, spacing):
-                return float(f"{row['time']:.4g}")
-    return float(f"{result.metrics['time']:.4g}")
-
-
-def _short(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.4g}")
-
-
-def outcome(row: Row) -> str:
-    """How a run ended: "steady", "failed" or "steps"."""
-    return str(row["end"]).partition(":")[0]
-
-
-def select(rows: Sequence[Row], **wanted: Any) -> list[Row]:
-    """The rows with these values."""
-    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
-
-
-def highest_steady(rows: Sequence[Row]) -> float:
-    """The Reynolds number up to which every run reaches the steady state; 0 if the first fails."""
-    highest = 0.0
-    for row in sorted(rows, key=lambda row: float(row["reynolds"])):
-        if outcome(row) != "steady":
-            break
-        highest = row["reynolds"]
-    return highest
 
 
 def present(data: dict[str, Any]) -> StudyResult:
@@ -139,19 +91,6 @@ def _modern_table(rows: Sequence[Row]) -> Table:
         Column("rms_error", "RMS error", ".2e"),
     )
     return Table("Beyond the paper: the modern settings", columns, lines)
-
-
-def error_at(row: Row, time: float) -> float:
-    """The RMS error at a t* of a run whose history is kept; infinite after it has failed."""
-    known = [(t, e) for t, e in row.get("history", []) if e is not None]
-    if not known or (outcome(row) == "failed" and row["time"] < time):
-        return math.inf
-    return float(min(known, key=lambda pair: abs(pair[0] - time))[1])
-
-
-def percent(error: float) -> str:
-    """An error in percent; infinite ones are those of runs that failed."""
-    return f"{error:.2%}" if math.isfinite(error) else "failed"
 
 
 def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:

@@ -28,6 +28,9 @@ def runs(quick: bool = False) -> list[Run]:
 
 
 def modern_runs(quick: bool = False) -> list[Run]:
-    """The same channel with the modern settings, to the steady state."""
-    fixed = {**PRESETS["modern"], "integrator": "kick_drift_kick", "max_steps": MODERN_STEPS}
+    """The same channel with the modern settings, to the steady state.
+
+    Without `slip`: it costs channels an error in proportion to Re, 0.8 % at Re = 300.
+    """
+    fixed = {**PRESETS["modern"], "slip": False, "integrator": "kick_drift_kick", "max_steps": MODERN_STEPS}
     return plan("poiseuille", {"reynolds": (ERROR_REYNOLDS, 3.0) if quick else MODERN_REYNOLDS}, fixed)
