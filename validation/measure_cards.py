@@ -3,8 +3,7 @@
 Orders: L1 error of the Laplacian of sin(2 pi x) sin(2 pi y), or for radial terms of the velocity with that stream
 function, cubic spline with a support of 3.14 dx: on a lattice from 160 to 320 particles a side; jittered by 0.3 dx from
 80 to 160, mean of 8 seeds.
-Conservation and dissipation: `sphear.cases.conservation`. Cost: seconds for one viscous acceleration of 100 x 100
-particles over those of `morris`, one thread, in turn.
+Conservation and dissipation: `sphear.cases.conservation`. Cost: `benchmarks/viscosity_cost.py`.
 
     python validation/measure_cards.py           # everything
     python validation/measure_cards.py --check   # compare with the committed file, except for the cost
@@ -14,21 +13,16 @@ from __future__ import annotations
 
 import json
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from sphear.cases.conservation import conservation
-from sphear.cases.lattice import lattice
 from sphear.cases.patch_test import PatchTest
-from sphear.corrections import NoCorrection
-from sphear.operators import Particles
 from sphear.viscosity import VISCOSITY
 from sphear.viscosity.page import page
 
 TARGET = Path(__file__).parents[1] / "src" / "sphear" / "viscosity" / "measured.json"
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 CARDS = Path(__file__).parents[1] / "docs" / "viscosity.md"
 
 
@@ -39,22 +33,6 @@ def order(name: str, jitter: float) -> float:
         viscosity=(name,), sizes=sizes, field="sine", velocity=VISCOSITY[name].radial, jitter=jitter, seeds=8
     )
     return float(test.rows()[-1]["order"])
-
-
-def costs(repetitions: int = 100) -> dict[str, float]:
-    """Seconds for one viscous acceleration by each term, over those of morris, best of many in turn."""
-    grid = lattice(100, 2, jitter=0.3)
-    particles = Particles.read(grid.positions, spacing=grid.spacing, volumes=grid.volume, threads=1)
-    velocity = np.sin(7 * grid.positions)
-    ones = np.ones(len(velocity))
-    best = dict.fromkeys(VISCOSITY, np.inf)
-    for repetition in range(repetitions + 1):
-        for name in VISCOSITY:
-            began = time.perf_counter()
-            particles.viscous_acceleration(velocity, ones, ones, VISCOSITY[name], NoCorrection(), "nan")
-            if repetition:
-                best[name] = min(best[name], time.perf_counter() - began)
-    return {name: seconds / best["morris"] for name, seconds in best.items()}
 
 
 def measured() -> dict[str, dict[str, Any]]:
@@ -78,7 +56,10 @@ def main() -> int:
         different = [name for name in facts if any(committed[name][key] != facts[name][key] for key in facts[name])]
         print("different from the committed file:", ", ".join(different) or "nothing")
         return len(different)
-    for name, cost in costs().items():
+    sys.path.insert(0, str(BENCHMARKS))
+    from viscosity_cost import relative_costs
+
+    for name, cost in relative_costs().items():
         facts[name]["cost"] = round(cost, 1)
     TARGET.write_text(json.dumps(facts, indent=2) + "\n", encoding="utf-8")
     CARDS.write_text(page(), encoding="utf-8")
