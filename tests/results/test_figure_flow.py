@@ -69,6 +69,23 @@ def test_a_reference_is_a_line_by_increasing_place() -> None:
     assert len(without.lines) == 1
 
 
+@pytest.mark.parametrize(
+    ("time", "table", "named", "marker"),
+    [
+        (None, False, "reference", "None"),
+        (40.0, False, "reference, t = 40", "None"),
+        (np.inf, True, "reference, steady", "s"),
+    ],
+)
+def test_a_reference_says_of_when_it_is_and_a_table_is_points(
+    time: float | None, table: bool, named: str, marker: str
+) -> None:
+    compared = {"u": Comparison("y", T, T, T, T, time, table)}
+    figure = flow_panels(compared, (T, T), ("t", "error"), "flow")
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == [named, "computed"]
+    assert figure.axes[0].lines[0].get_marker() == marker
+
+
 def test_a_curve_that_runs_away_leaves_the_references_in_sight() -> None:
     low, high = histories().axes[0].get_ylim()
     assert (low, high) == pytest.approx((-0.3, 1.3))

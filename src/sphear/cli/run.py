@@ -147,7 +147,13 @@ def _particles(run: FlowRun) -> Table:
 def _summary(metrics: dict[str, Any], table: Table) -> str:
     """What was found at the end, beside the columns of the table."""
     shown = {column.key for column in table.columns} | {"time", "steps", "end", "failure_time"}
-    found = [f"{name.replace('_', ' ')} {value:.4g}" for name, value in metrics.items() if name not in shown]
+    found = [
+        "reference steady"
+        if name == "reference_time" and math.isinf(value)
+        else f"{name.replace('_', ' ')} {value:.4g}"
+        for name, value in metrics.items()
+        if name not in shown
+    ]
     return f"  {', '.join(found)}.\n" if found else ""
 
 

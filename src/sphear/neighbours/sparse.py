@@ -28,6 +28,7 @@ def sparse_rows(neighbours: Neighbours, weights: Array, columns: int, column: Ar
     before = 0
     for chunk in chunks:
         starts[chunk.begin + 1 : chunk.end + 1] = chunk.first[1:] + before
-        np.take(place, chunk.neighbour[: chunk.pairs], out=listed[before : before + chunk.pairs])
+        out = listed[before : before + chunk.pairs]
+        np.take(place, chunk.neighbour[: chunk.pairs], out=out, mode="clip")  # "raise" would go through a copy
         before += chunk.pairs
     return csr_array((weights, listed, starts), shape=(neighbours.count, columns))

@@ -30,6 +30,8 @@ class Comparison(NamedTuple):
     along: the name of the coordinate.
     at, values: of the computed one.
     reference_at, reference: of the other, empty where there is none.
+    reference_time: of the other, inf of a steady flow; None where it is that of the computed one.
+    table: whether nothing is known of the other between its places.
     """
 
     along: str
@@ -37,6 +39,8 @@ class Comparison(NamedTuple):
     values: Array
     reference_at: Array
     reference: Array
+    reference_time: float | None = None
+    table: bool = False
 
 
 @dataclass(frozen=True)

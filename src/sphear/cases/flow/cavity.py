@@ -14,6 +14,7 @@ from sphear.references import cavity as references
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
+Lines = dict[str, tuple[Array, Array]]  # stations and values by name
 
 SIDE, LID_SPEED, DENSITY = 1.0, 1.0, 1.0
 STATIONS = np.linspace(0.0, 1.0, 66)[1:-1]  # where the centreline profiles are compared, the walls left out
@@ -64,52 +65,68 @@ def energy(known: references.CavityFlow | None, flow: FlowInTime) -> dict[str, f
     return found
 
 
-def centrelines(flow: FlowInTime) -> tuple[Array, Array]:
-    """u along x = 1/2 and v along y = 1/2, at `STATIONS`."""
-    half = np.full_like(STATIONS, 0.5 * SIDE)
-    along_y = interpolated(flow, np.stack((half, STATIONS), axis=1))
-    along_x = interpolated(flow, np.stack((STATIONS, half), axis=1))
-    return along_y[:, 0], along_x[:, 1]
+def centrelines(flow: FlowInTime) -> Lines:
+    """u along x = 1/2 and v along y = 1/2: the `STATIONS` that are in the fluid, and the values there."""
+    found = {}
+    for component, name in enumerate("uv"):
+        points = np.full((len(STATIONS), 2), 0.5 * SIDE)
+        points[:, 1 - component] = STATIONS
+        shape = flow.problem.shape
+        inside = np.ones(len(STATIONS), bool) if shape is None else shape.distance(points) > 0
+        found[name] = STATIONS[inside], interpolated(flow, points[inside])[:, component]
+    return found
 
 
 def summary(settings: Settings, flow: FlowInTime) -> dict[str, float]:
     """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u."""
-    u, v = centrelines(flow)
-    found = {"u_min": float(u.min())}
-    known = reference(settings, flow.time)
+    return deviations(reference(settings, flow.time), centrelines(flow))
+
+
+def deviations(known: references.CavityFlow | None, lines: Lines) -> dict[str, float]:
+    """What `summary` says of profiles beside a reference, whose time is inf where it is steady."""
+    found = {"u_min": float(lines["u"][1].min())}
     if known is None:
         return found
-    found["reference_time"] = known.time if np.isfinite(known.time) else -1.0
-    for name, values, curve in (("u", u, known.u), ("v", v, known.v)):
-        if len(curve.stations) < 40:  # published tables are compared at their own stations
+    found["reference_time"] = known.time
+    for name, curve in (("u", known.u), ("v", known.v)):
+        stations, values = lines[name]
+        if curve.table:  # published tables are compared at their own stations
             inside = curve.stations[1:-1]
-            deviation = np.interp(inside, STATIONS, values) - curve.values[1:-1]
+            deviation = np.interp(inside, stations, values) - curve.values[1:-1]
         else:
-            deviation = values - curve.at(STATIONS)
-        found[f"{name}_mean_deviation"] = float(np.abs(deviation).mean())
-        found[f"{name}_max_deviation"] = float(np.abs(deviation).max())
+            deviation = values - curve.at(stations)
+        found[f"{name}_mean_deviation"] = float(np.nanmean(np.abs(deviation)))
+        found[f"{name}_max_deviation"] = float(np.nanmax(np.abs(deviation)))
     return found
 
 
 def profiles(settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
     """Both centreline profiles, to be kept."""
-    u, v = centrelines(flow)
-    return {"stations": STATIONS.tolist(), "u": u.tolist(), "v": v.tolist()}
+    lines = centrelines(flow)
+    return {"stations": STATIONS.tolist(), **{name: values.tolist() for name, (_, values) in lines.items()}}
 
 
 def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
     """Both centreline profiles."""
-    u, v = centrelines(flow)
-    known = reference(settings, flow.time)
+    return beside(reference(settings, flow.time), centrelines(flow))
+
+
+def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Comparison]:
+    """Both centreline profiles with those of a reference."""
     nothing = np.empty(0)
-    return {
-        "u on x = 1/2": Comparison(
-            "y", STATIONS, u, *((known.u.stations, known.u.values) if known else (nothing, nothing))
-        ),
-        "v on y = 1/2": Comparison(
-            "x", STATIONS, v, *((known.v.stations, known.v.values) if known else (nothing, nothing))
-        ),
-    }
+    found = {}
+    for name, along, where in (("u", "y", "x"), ("v", "x", "y")):
+        curve = None if known is None else getattr(known, name)
+        stations, values = (nothing, nothing) if curve is None else (curve.stations, curve.values)
+        found[f"{name} on {where} = 1/2"] = Comparison(
+            along,
+            *lines[name],
+            stations,
+            values,
+            reference_time=None if known is None else known.time,
+            table=curve is not None and curve.table,
+        )
+    return found
 
 
 CAVITY = FlowCase(

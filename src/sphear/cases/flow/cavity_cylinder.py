@@ -11,9 +11,8 @@ from sphear.boundaries import Box
 from sphear.boundaries.shapes import Circle, Rectangle
 from sphear.cases.flow import cavity
 from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
-from sphear.cases.flow.cavity import DENSITY, LID_SPEED, SIDE, STATIONS
+from sphear.cases.flow.cavity import DENSITY, LID_SPEED, SIDE
 from sphear.cases.flow.initial import particles_in
-from sphear.cases.flow.interpolation import interpolated
 from sphear.errors import SphearError
 from sphear.references import cavity as references
 from sphear.schemes.incompressible.settings import IncompressibleSettings
@@ -87,59 +86,20 @@ def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
     return cavity.energy(reference(settings, flow.time), flow)
 
 
-def _stations(flow: FlowInTime, axis: int) -> tuple[Array, Array]:
-    """The stations in the fluid along x = 1/2 (axis 1) or y = 1/2 (axis 0), and their places."""
-    points = np.full((len(STATIONS), 2), 0.5 * SIDE)
-    points[:, axis] = STATIONS
-    assert flow.problem.shape is not None
-    inside = flow.problem.shape.distance(points) > 0
-    return STATIONS[inside], points[inside]
-
-
-def centrelines(flow: FlowInTime) -> dict[str, tuple[Array, Array]]:
-    """u along x = 1/2 and v along y = 1/2: stations in the fluid and values."""
-    found = {}
-    for name, axis, component in (("u", 1, 0), ("v", 0, 1)):
-        stations, points = _stations(flow, axis)
-        found[name] = stations, interpolated(flow, points)[:, component]
-    return found
-
-
 def summary(settings: Settings, flow: FlowInTime) -> dict[str, float]:
     """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u."""
-    lines = centrelines(flow)
-    found = {"u_min": float(lines["u"][1].min())}
-    known = reference(settings, flow.time)
-    if known is None:
-        return found
-    found["reference_time"] = known.time
-    for name, curve in (("u", known.u), ("v", known.v)):
-        stations, values = lines[name]
-        deviation = np.abs(values - curve.at(stations))
-        found[f"{name}_mean_deviation"] = float(np.nanmean(deviation))
-        found[f"{name}_max_deviation"] = float(np.nanmax(deviation))
-    return found
+    return cavity.deviations(reference(settings, flow.time), cavity.centrelines(flow))
 
 
 def profiles(settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
-    """Both centreline profiles, to be kept."""
-    lines = centrelines(flow)
-    return {
-        "y": lines["u"][0].tolist(), "u": lines["u"][1].tolist(),
-        "x": lines["v"][0].tolist(), "v": lines["v"][1].tolist(),
-    }  # fmt: skip
+    """Both centreline profiles, to be kept, each with its own stations."""
+    (y, u), (x, v) = cavity.centrelines(flow).values()
+    return {"y": y.tolist(), "u": u.tolist(), "x": x.tolist(), "v": v.tolist()}
 
 
 def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
     """Both centreline profiles."""
-    known, nothing = reference(settings, flow.time), np.empty(0)
-    found = {}
-    for name, title, along in (("u", "u on x = 1/2", "y"), ("v", "v on y = 1/2", "x")):
-        stations, values = centrelines(flow)[name]
-        curve = None if known is None else {"u": known.u, "v": known.v}[name]
-        beside = (nothing, nothing) if curve is None else (curve.stations, curve.values)
-        found[title] = Comparison(along, stations, values, *beside)
-    return found
+    return cavity.beside(reference(settings, flow.time), cavity.centrelines(flow))
 
 
 CAVITY_CYLINDER = FlowCase(

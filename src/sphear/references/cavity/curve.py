@@ -12,6 +12,8 @@ from scipy.interpolate import CubicSpline
 from sphear.errors import SphearError
 from sphear.names import unknown
 
+FEW = 40  # stations of a curve, below which it is a table
+
 
 @dataclass(frozen=True, eq=False)
 class Curve:
@@ -32,6 +34,11 @@ class Curve:
             array = np.array(getattr(self, name), dtype=np.float64)
             array.setflags(write=False)
             object.__setattr__(self, name, array)
+
+    @property
+    def table(self) -> bool:
+        """Whether nothing is known between its stations, as of those that were published."""
+        return len(self.stations) < FEW
 
     def at(self, stations: ArrayLike, kind: Literal["cubic", "linear"] = "cubic") -> NDArray[np.float64]:
         """The values at other stations; NaN within the gap.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 RASTERED = 2000  # particles, from which on they are a picture in a vector file too
 PANEL = (2.7, 2.5)  # inches, about, that particles are drawn in
+_CURVE: dict[str, Any] = {"color": FAINT}
+_TABLE: dict[str, Any] = {"color": FAINT, "linestyle": "none", "marker": "s", "fillstyle": "none"}
 GAP = 1.15  # spacings, as which a particle is drawn wide, so that fluid has no holes
 
 
@@ -42,12 +45,13 @@ def flow_panels(
     panels = len(comparisons) + 1 + (particles is not None)
     figure, axes = grid(panels, 4 if panels == 4 else 3, (4.0, 3.4), title)
     colour = look("morris").colour
-    referred = False
+    referred = {}
     for ax, (name, profile) in zip(axes, comparisons.items(), strict=False):
         if len(profile.reference_at):
             order = np.argsort(profile.reference_at)
-            ax.plot(profile.reference_at[order], profile.reference[order], color=FAINT)
-            referred = True
+            drawn = _TABLE if profile.table else _CURVE
+            ax.plot(profile.reference_at[order], profile.reference[order], **drawn)
+            referred[_reference(profile.reference_time, labels[0])] = Line2D([], [], **drawn)
         ax.plot(profile.at, profile.values, "o", color=colour, markersize=3.5, markeredgewidth=0)
         ax.set(xlabel=profile.along, ylabel=name)
     times, values = (np.asarray(x, float) for x in history)
@@ -61,9 +65,15 @@ def flow_panels(
         draw_particles(axes[-1], np.asarray(places, float), np.asarray(velocities, float), spacing)
     if not comparisons:
         return figure
-    lines = {"computed": Line2D([], [], color=INK, marker="o", linestyle="none")}
-    key(figure, ({"reference": Line2D([], [], color=FAINT)} if referred else {}) | lines)
+    key(figure, referred | {"computed": Line2D([], [], color=INK, marker="o", linestyle="none")})
     return figure
+
+
+def _reference(time: float | None, named: str) -> str:
+    """What a reference is called, whose time may be another than that of the flow."""
+    if time is None:
+        return "reference"
+    return "reference, steady" if math.isinf(time) else f"reference, {named} = {time:g}"
 
 
 def draw_particles(ax: Axes, places: NDArray[np.float64], velocities: NDArray[np.float64], spacing: float) -> None:

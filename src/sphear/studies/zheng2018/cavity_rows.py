@@ -21,7 +21,6 @@ Row = dict[str, Any]
 SAME_TIME = 2e-3  # two times are equal, relative: a run ends within a step of its time
 WATCHED = ("pressure_iterations", "divergence", "density_deviation", "smallest_distance", "largest_gap")
 MOMENTS = 11  # of what is watched
-FEW = 40  # stations of a curve, below which it is a table: nothing between them is known
 GAP = (0.25, 0.75)  # the cylinder, on both centrelines
 IMMATERIAL = ("scheme", "reynolds", "resolution", "viscosity", "until", "threads", "force")
 DERIVED = ("time_step", "alpha", "h_over_dx", "kinematic_viscosity")
@@ -136,7 +135,7 @@ def least(curve: Curve) -> float:
 
 def deviations(curve: Curve, known: Curve) -> NDArray[np.float64]:
     """Of a profile from another: at the inner stations that are in the fluid, those of a table at its own."""
-    few = known.stations if len(known.stations) < FEW else curve.stations
+    few = known.stations if known.table else curve.stations
     inner = np.array([x for x in few if 0 < x < 1 and not (known.gap and GAP[0] <= x <= GAP[1])])
     return np.abs(curve.at(inner) - known.at(inner))
 
