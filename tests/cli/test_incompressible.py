@@ -68,7 +68,7 @@ def test_a_table_says_what_is_computed_and_how_it_ended(sphear: Run) -> None:
 def test_files_and_particles(sphear: Run) -> None:
     outcome = sphear(*CYLINDER, "--set", "max_steps=2", "--json", "--out", "results")
     files = {path.name for path in Path("results").iterdir()}
-    assert files == {f"cavity-cylinder{end}" for end in (".json", ".csv", "-2.csv", ".png", ".svg")}
+    assert files == {f"cavity-cylinder{end}" for end in (".json", ".csv", "-particles.csv", ".png", ".svg")}
     written = json.loads(Path("results/cavity-cylinder.json").read_text())
     assert len(written.pop("history")) == 2
     assert written == outcome.json()

@@ -53,7 +53,7 @@ def test_files(sphear: Run) -> None:
 
 def test_particles_are_written_for_other_programs(sphear: Run) -> None:
     sphear("run", "couette", "--resolution", "10", "--until", "0.01", "--json", "--out", "results")
-    heading, *lines = Path("results/couette-2.csv").read_text().splitlines()
+    heading, *lines = Path("results/couette-particles.csv").read_text().splitlines()
     assert heading == "x0,x1,u0,u1,density,pressure"
     rows = [[float(number) for number in line.split(",")] for line in lines]
     assert len(rows) == 100

@@ -31,7 +31,7 @@ def run(
     preset: str | None = typer.Option(None, help="Settings by name: paper or modern; other options go before them."),
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
-    out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history and JSON to this folder."),
+    out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history, particles, JSON to this folder."),
     resume: bool = typer.Option(False, "--resume", help="Go on with the run that was interrupted in --out DIR."),
 ) -> None:
     """Compute a flow from its start to its end, or to its failure."""
@@ -75,8 +75,8 @@ def run(
     table = _table(flow)
     result = flow.as_dict()
     if files is not None:
-        tables = [table, _particles(flow)]
-        write(files, chosen.name, {**result, "history": flow.history}, tables, {chosen.name: lambda: _figure(flow)})
+        write(files, chosen.name, {**result, "history": flow.history}, [table], {chosen.name: lambda: _figure(flow)})
+        files.write_table(f"{chosen.name}-particles", _particles(flow))
         if keep is not None:
             keep.unlink(missing_ok=True)
     if as_json:
