@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from pydantic import Field
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Circle, Rectangle
 from sphear.cases.flow import cavity
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Comparison, FlowInTime, Settings
 from sphear.cases.flow.cavity import DENSITY, LID_SPEED, SIDE
 from sphear.cases.flow.initial import particles_in
 from sphear.errors import SphearError
@@ -102,17 +103,14 @@ def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
     return cavity.beside(reference(settings, flow.time), cavity.centrelines(flow))
 
 
-CAVITY_CYLINDER = FlowCase(
+CAVITY_CYLINDER = replace(
+    cavity.CAVITY,
     name="cavity-cylinder",
     defaults={"incompressible": {"reynolds": 1000.0, "resolution": 100, "until": 40.0}},
     kinds={"incompressible": CylinderSettings},
     problem=problem,
     comparisons=comparisons,
-    time_unit=lambda settings: SIDE / LID_SPEED,
-    time_name="t",
     metrics=metrics,
-    ended=lambda settings, flow, found: None,
     summary=summary,
     profiles=profiles,
-    headline="kinetic_energy",
 )
