@@ -7,6 +7,10 @@ Every published viscous term, exchangeable. The operators work on NumPy arrays o
     gradient(positions, values, correction="shepard")
     interpolate(positions, values, at=points)
 
+Flows of the cases run from their start to their end:
+
+    flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400).run()
+
 Names are imported when first used, so that importing the package costs nothing.
 """
 
@@ -18,6 +22,7 @@ from typing import Any
 __version__ = "0.1.0"
 
 _HOMES = {
+    "sphear.cases.flow": ("flow",),
     "sphear.errors": ("SphearError", "TooFewNeighboursError"),
     "sphear.neighbours": ("Domain", "Neighbours"),
     "sphear.operators": ("Particles", "gradient", "interpolate", "laplacian", "viscous_acceleration"),

@@ -36,8 +36,7 @@ def run(
 ) -> None:
     """Compute a flow from its start to its end, or to its failure."""
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.schemes.presets import preset_settings
-    from sphear.sweeps import flow_settings
+    from sphear.cases.flow.chosen import flow_settings
 
     files = folder(out)
     chosen = FLOWS[case.replace("_", "-")]
@@ -52,9 +51,7 @@ def run(
     if both := next((key for key in named if key in wanted), None):
         raise SphearError(f"the setting {both} is given by --{both} and by --set: choose one")
     wanted |= named
-    together = preset_settings(preset, str(wanted.get("scheme", next(iter(chosen.defaults))))) if preset else {}
-    settings = flow_settings(chosen, together | wanted)
-    flow = FlowRun(chosen, settings)
+    flow = FlowRun(chosen, flow_settings(chosen, wanted, preset))
     keep = None if files is None else files.path / f"{chosen.name}-state.npz"
     if resume and keep is not None:
         flow.restore(keep)

@@ -3,10 +3,10 @@
 Importing this imports no compiler: a worker sets itself up before it does.
 """
 
-from sphear.sweeps.plan import Run, flow_settings, plan
+from sphear.sweeps.plan import Run, plan
 from sphear.sweeps.progress import Progress, SweepProgress
 from sphear.sweeps.result import SweepResult
 from sphear.sweeps.store import Store
 from sphear.sweeps.sweep import run_sweep
 
-__all__ = ["Progress", "Run", "Store", "SweepProgress", "SweepResult", "flow_settings", "plan", "run_sweep"]
+__all__ = ["Progress", "Run", "Store", "SweepProgress", "SweepResult", "plan", "run_sweep"]

@@ -11,12 +11,10 @@ from functools import cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from sphear.checked import checked
 from sphear.errors import SphearError
 from sphear.names import Registry
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
-    from sphear.cases.flow import FlowCase
     from sphear.schemes.base import Settings
 
 UNTIL_STEADY = 20.0  # time units, the guess where the case says when a run is over
@@ -94,23 +92,6 @@ class Run:
         return len(run.flow.positions) * min(until * run.unit / run.flow.time_step, self.settings.max_steps)
 
 
-def flow_settings(case: FlowCase, changes: Mapping[str, Any]) -> Settings:
-    """The settings of a case with some changed, each checked by itself.
-
-    Raises:
-        SphearError: there is no such setting, or its value is wrong.
-    """
-    from sphear.schemes.base import unknown_setting
-
-    scheme = str(changes.get("scheme", next(iter(case.defaults))))
-    known = case.kind(scheme).model_fields
-    for key in changes:
-        if key not in known:
-            raise unknown_setting(key, known, scheme)
-    with checked("the setting "):
-        return case.settings(**changes)
-
-
 def plan(case: str, over: Mapping[str, Sequence[Any]], fixed: Mapping[str, Any] | None = None) -> list[Run]:
     """All combinations of values for some settings, on top of fixed ones; a run that comes up again is left out.
 
@@ -124,6 +105,7 @@ def plan(case: str, over: Mapping[str, Sequence[Any]], fixed: Mapping[str, Any] 
             the others.
     """
     from sphear.cases.flow import FLOWS
+    from sphear.cases.flow.chosen import flow_settings
 
     fixed = fixed or {}
     for key, values in over.items():

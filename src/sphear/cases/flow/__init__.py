@@ -5,6 +5,7 @@ from __future__ import annotations
 from sphear.cases.flow.base import Comparison, FlowCase
 from sphear.cases.flow.cavity import CAVITY
 from sphear.cases.flow.cavity_cylinder import CAVITY_CYLINDER
+from sphear.cases.flow.chosen import flow
 from sphear.cases.flow.couette import COUETTE
 from sphear.cases.flow.dam_break import DAM_BREAK
 from sphear.cases.flow.poiseuille import POISEUILLE
@@ -16,4 +17,4 @@ FLOWS: Registry[FlowCase] = Registry("case")
 for _case in (POISEUILLE, COUETTE, TAYLOR_GREEN, CAVITY, CAVITY_CYLINDER, DAM_BREAK):
     FLOWS.add(_case.name, _case)
 
-__all__ = ["FLOWS", "Comparison", "FlowCase", "FlowRun"]
+__all__ = ["FLOWS", "Comparison", "FlowCase", "FlowRun", "flow"]

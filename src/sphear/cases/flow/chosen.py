@@ -1,0 +1,55 @@
+"""A flow by its name, with settings by theirs: what the command line, sweeps and Python programs start from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.run import FlowRun
+from sphear.checked import checked
+from sphear.schemes.base import unknown_setting
+from sphear.schemes.presets import preset_settings
+
+
+def flow(case: str, /, *, preset: str | None = None, **settings: Any) -> FlowRun:
+    """A run of a flow, ready to start; velocities in those of the lid, the channel or the vortex, see the case.
+
+        run = sphear.flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400, until=20).run()
+        run.flow.positions, run.flow.velocities, run.flow.pressure  # (N, 2), (N, 2), (N,)
+        run.history, run.end, run.as_dict()["metrics"]
+
+    Args:
+        case: its name: `sphear list cases`.
+        preset: settings that belong together, "paper" or "modern"; those given by name go before them.
+        settings: as `--set` of `sphear run` takes them; `sphear show case NAME` lists them.
+
+    Raises:
+        SphearError: there is no such case, preset or setting, or one does not fit the others.
+    """
+    from sphear.cases.flow import FLOWS
+
+    chosen = FLOWS[case.replace("_", "-")]
+    return FlowRun(chosen, flow_settings(chosen, settings, preset))
+
+
+def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None = None) -> Settings:
+    """The settings of a case with some changed, each checked by itself.
+
+    Args:
+        case: whose settings.
+        changes: values by name.
+        preset: settings that belong together, behind those.
+
+    Raises:
+        SphearError: there is no such setting or preset, or a value is wrong.
+    """
+    scheme = str(changes.get("scheme", next(iter(case.defaults))))
+    if preset is not None:
+        changes = {**preset_settings(preset, scheme), **changes}
+    known = case.kind(scheme).model_fields
+    for key in changes:
+        if key not in known:
+            raise unknown_setting(key, known, scheme)
+    with checked("the setting "):
+        return case.settings(**changes)
