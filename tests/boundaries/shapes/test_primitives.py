@@ -138,7 +138,6 @@ def test_normals_of_half_planes_have_any_length(angle: float, length: float) -> 
         (lambda: Polygon([(0, 0), (1, 0), (0, 1)], cast(Any, 3.0)), "edges of a polygon are given by name"),
         (lambda: Circle((0, 0), 0), "radius of a circle is positive"),
         (lambda: Circle((0, 0), inf), "radius of a circle is a finite number"),
-        (lambda: Circle((0, 0), 1, velocity=(1, 0)), r"moves through its wall at \(1, 0\)"),
         (lambda: Circle(cast(Any, (0, 0, 0)), 1), "the centre of a circle has two finite numbers"),
         (lambda: HalfPlane((0, 0), (0, 0)), "not zero"),
         (lambda: HalfPlane((0, 0), (0, 1), (1, 1)), r"moves through itself at \(1, 1\)"),

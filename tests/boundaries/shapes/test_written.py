@@ -32,7 +32,7 @@ WRONG = {
     "CIRCLE": "not as 'CIRCLE'",
     "Circle((0.3, 0.5), 0.1) + Circle((0.3, 0.5), 0.2)": "a shape is written as in",
     "Circl((0.3, 0.5), 0.1)": "there is no shape named 'Circl': did you mean Circle?",
-    "Circle((0.3, 0.5))": "has missing a required argument: 'radius': it takes centre, radius, velocity, spin",
+    "Circle((0.3, 0.5))": "has missing a required argument: 'radius': it takes centre, radius, spin",
     "Circle((0.3, 0.5), 0.1, colour=2)": "unexpected keyword argument 'colour': it takes centre, radius",
     "Circle((0.3, 0.5), open('x'))": "are to be numbers",
     "Circle((0.3, 0.5), -1)": "the radius of a circle is positive, not -1",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from math import inf, isfinite
+from math import inf, isfinite, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -145,19 +145,23 @@ def plane_vector(what: str, value: object, finite: bool = True) -> Vector:
     """Two numbers; raises SphearError for anything else, naming what was given."""
     if isinstance(value, Sequence | np.ndarray) and not isinstance(value, str) and len(value) == 2:
         try:
-            x, y = float(value[0]), float(value[1])
-        except (TypeError, ValueError):
+            x, y = (number("a coordinate", each, finite) for each in value)
+        except SphearError:
             pass
         else:
-            if (isfinite(x) and isfinite(y)) or (not finite and x == x and y == y):
-                return x, y
+            return x, y
     raise SphearError(f"shapes lie in the plane: {what} has two{' finite' if finite else ''} numbers, not {value!r}")
 
 
-def number(what: str, value: object) -> float:
-    """A finite number; raises SphearError for anything else, naming what was given."""
-    if isinstance(value, int | float | np.number) and isfinite(value):
-        return float(value)
+def number(what: str, value: object, finite: bool = True) -> float:
+    """A number, which may be infinite only if said so; raises SphearError for anything else, naming what was given."""
+    if isinstance(value, int | float | np.number) and not isinstance(value, bool):
+        try:
+            found = float(value)
+        except (OverflowError, TypeError):  # of whole numbers beyond all others, and of complex ones
+            found = nan
+        if isfinite(found) or (not finite and found == found):
+            return found
     raise SphearError(f"{what} is a finite number, not {value!r}")
 
 
@@ -170,7 +174,9 @@ def by_name(what: str, value: object) -> dict[Any, Any]:
     """A mapping, or the pairs that it is kept as; raises SphearError for anything else, naming what was given."""
     if isinstance(value, Mapping):
         return dict(value)
-    if isinstance(value, tuple) and all(isinstance(pair, tuple) and len(pair) == 2 for pair in value):
+    if isinstance(value, tuple) and all(
+        isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], int | str) for pair in value
+    ):
         return dict(value)
     raise SphearError(f"{what} are given by name, as {{'upper': (1, 0)}} or {{0: (1, 0)}}, not {value!r}")
 

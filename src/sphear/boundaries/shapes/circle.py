@@ -19,30 +19,22 @@ class Circle(Primitive):
     Args:
         centre: c.
         radius: R.
-        velocity: of the centre, which is zero: a wall may move only along itself.
         spin: angular velocity of the wall about its centre, anticlockwise, in radians a time.
 
     Raises:
-        SphearError: there is no such circle, or it moves through its wall.
+        SphearError: there is no such circle.
     """
 
     centre: Vector
     radius: float
-    velocity: Vector = (0.0, 0.0)
     spin: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "centre", plane_vector("the centre of a circle", self.centre))
         object.__setattr__(self, "radius", number("the radius of a circle", self.radius))
-        object.__setattr__(self, "velocity", plane_vector("the velocity of a circle", self.velocity))
         object.__setattr__(self, "spin", number("the spin of a circle", self.spin))
         if self.radius <= 0:
             raise SphearError(f"the radius of a circle is positive, not {self.radius:g}")
-        if self.velocity != (0.0, 0.0):
-            raise SphearError(
-                f"the {self} moves through its wall at {text(self.velocity)}: a wall may move only along itself, as by"
-                " a spin"
-            )
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:

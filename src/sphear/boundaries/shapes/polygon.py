@@ -50,7 +50,7 @@ class Polygon(Primitive):
             )
         kept = []
         for edge, value in by_name("the velocities of the edges of a polygon", self.velocities).items():
-            if edge not in range(len(vertices)):
+            if isinstance(edge, bool) or edge not in range(len(vertices)):
                 raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {edge!r}")
             velocity = plane_vector(f"the velocity of edge {edge} of a polygon", value)
             along = ends[edge] - starts[edge]

@@ -18,6 +18,7 @@ from sphear.neighbours.domain import Domain
 
 FINE = 0.25  # spacings between the points on walls that are looked at
 STEP = 0.125  # spacings between the points on the way across a gap
+THICK = 1.5  # depths of the rows: half of it, and half a spacing before the wall, is where the kernel is almost zero
 BARELY = 1e-6  # spacings that count as none
 INSCRIBED = 0.95  # of the half of a gap, free around its middle: narrower is a corner of less than 36 degrees
 
@@ -26,7 +27,8 @@ def check_room(shape: Shape, spacing: float, depth: float, box: Domain, support:
     """Refuse walls that particles cannot stand between or behind.
 
     A gap is where the line from a wall along its normal meets a wall again after a way w < support, and the circle
-    about its middle with w as its diameter is fluid; a corner between two walls is none.
+    about its middle with w as its diameter is fluid; a corner between two walls is none. A solid is measured likewise:
+    where it is thinner than 1.5 times the depth of its rows, the fluid on one side sees those of the other.
 
     Args:
         shape: the region of fluid.
@@ -37,7 +39,7 @@ def check_room(shape: Shape, spacing: float, depth: float, box: Domain, support:
 
     Raises:
         SphearError: solids of a difference overlap, a shape is too small for a particle behind its walls, no fluid is
-            left, or a gap is too narrow; also what `fluid_lattice` and `dummies` refuse.
+            left, a gap is too narrow or a solid too thin; also what `fluid_lattice` and `dummies` refuse.
     """
     lengths = {"the spacing of particles": spacing, "the depth of walls": depth, "the support of the kernel": support}
     for name, length in lengths.items():
@@ -50,6 +52,12 @@ def check_room(shape: Shape, spacing: float, depth: float, box: Domain, support:
         if inverted and not sum(map(len, primitive.rows(spacing, depth, box, inverted))):
             raise SphearError(f"the {primitive} is too small for any wall particle, {spacing:g} apart, behind its wall")
     fluid_lattice(shape, spacing, box)
+    if thin := narrowest_gap(Complement(shape), spacing, box, THICK * depth):
+        width, place = thin
+        raise SphearError(
+            f"the solid at {text(place)} is {width:.3g} thick: fluid on its two sides would feel each other through what"
+            f" is thinner than {THICK * depth:.3g}; a finer spacing or a thicker solid is needed"
+        )
     if gap := narrowest_gap(shape, spacing, box, support):
         width, place = gap
         raise SphearError(

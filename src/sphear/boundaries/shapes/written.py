@@ -61,6 +61,8 @@ def _shape(node: ast.expr, text: str) -> Shape:
         raise SphearError(
             f"the arguments of {ast.unparse(node)} are to be numbers, in brackets where several"
         ) from None
+    if len(named) < len(node.keywords):
+        raise SphearError(f"{ast.unparse(node)} says the same twice: each argument is given once")
     try:
         signature(PRIMITIVES[name]).bind(*values, **named)
     except TypeError as error:

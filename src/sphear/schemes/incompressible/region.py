@@ -6,9 +6,10 @@ import math
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from sphear.boundaries import Box
-from sphear.boundaries.shapes import Dummies, Rectangle, Shape, check_room, dummies, repeated
+from sphear.boundaries.shapes import Circle, Dummies, Rectangle, Shape, check_room, dummies, repeated
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
@@ -18,7 +19,8 @@ from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
-LITTLE = 1e-4  # spacings along a wall
+LITTLE = 1e-6  # spacings from a wall, and of its speed: as good as nothing
+TOO_NEAR = 0.3  # spacings between particles on walls; those in right corners are half of one from the next
 FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 
 
@@ -54,7 +56,7 @@ def between_walls(box: Box) -> Shape | None:
 
 
 def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel, supports: int) -> Walls | None:
-    """The wall particles, as deep as the kernel reaches; None without walls.
+    """The wall particles, as deep as the kernel reaches; None where there are none.
 
     Args:
         problem: the flow.
@@ -72,8 +74,10 @@ def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel,
     dx = problem.spacing
     check_room(shape, dx, supports * kernel.radius, window, kernel.radius)
     behind = dummies(shape, dx, math.ceil(supports * kernel.radius / dx) * dx, window)
+    if not len(behind.positions):
+        return None
     if settings.neumann == "sfdi":
-        behind = _with_row_on_walls(behind, dx)
+        behind = _with_row_on_walls(behind, dx, window)
     domain = window if any(problem.periodic) else None
     return Walls(
         behind,
@@ -83,33 +87,41 @@ def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel,
         settings.wall_velocity,
         settings.neumann == "adami",
         problem.free_surface,
-        accelerations(repeated(shape, window), behind, dx),
+        accelerations(shape, behind, dx, window),
     )
 
 
-def accelerations(whole: Shape, behind: Dummies, spacing: float) -> Array:
-    """(W, d): (u . grad) u of the walls at the feet of dummies, which is that of a wall that turns, else zero.
-
-    From the velocities of the wall a little ahead and behind, along it.
-    """
-    speed = np.hypot(*behind.velocities.T)
-    fastest = float(speed.max(initial=0.0))
-    if not fastest:
-        return np.zeros_like(behind.velocities)
-    time = LITTLE * spacing / fastest
-    ahead, past = (whole.wall_velocity(behind.feet + way * time * behind.velocities) for way in (1.0, -1.0))
-    moving = (speed > 0)[:, None]
-    result: Array = np.where(moving, (ahead - past) / (2.0 * time), 0.0)
+def accelerations(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
+    """(W, d): (u . grad) u of the walls at the feet of dummies, spin x u of a circle that turns, else zero."""
+    result = np.zeros_like(behind.velocities)
+    for primitive, _ in shape.primitives():
+        if isinstance(primitive, Circle) and primitive.spin:
+            wall = repeated(primitive, window).foot(behind.feet)
+            off = np.abs(wall.velocity - behind.velocities).max(axis=1)
+            own = (np.abs(wall.distance) < LITTLE * spacing) & (off < LITTLE * abs(primitive.spin) * primitive.radius)
+            result[own] = primitive.spin * np.column_stack((-behind.velocities[own, 1], behind.velocities[own, 0]))
     return result
 
 
-def _with_row_on_walls(behind: Dummies, dx: float) -> Dummies:
-    """The dummies after particles on the walls, at the feet of the first row."""
+def _with_row_on_walls(behind: Dummies, dx: float, window: Domain) -> Dummies:
+    """The dummies after particles on the walls, at the feet of the first row, each some way from the others."""
     first = behind.depths < FIRST_ROW * dx
-    feet = behind.feet[first]
+    feet, normals, velocities = behind.feet[first], behind.normals[first], behind.velocities[first]
+    feet = window.wrapped(feet)
+    places, source = window.with_images(feet, dx)
+    taken, kept = np.zeros(len(feet), bool), []
+    for k, listed in enumerate(cKDTree(places).query_ball_point(feet, TOO_NEAR * dx)):
+        if taken[k]:
+            continue
+        near = source[listed]
+        taken[near] = True  # in a corner the feet of several are one, which faces as they do in the mean
+        mean = normals[near].mean(axis=0)
+        length = np.hypot(*mean)
+        normals[k] = mean / length if length > 0 else normals[k]
+        kept.append(k)
     return Dummies(
-        np.concatenate((feet, behind.positions)),
-        np.concatenate((np.zeros(len(feet)), behind.depths)),
-        np.concatenate((behind.normals[first], behind.normals)),
-        np.concatenate((behind.velocities[first], behind.velocities)),
+        np.concatenate((feet[kept], behind.positions)),
+        np.concatenate((np.zeros(len(kept)), behind.depths)),
+        np.concatenate((normals[kept], behind.normals)),
+        np.concatenate((velocities[kept], behind.velocities)),
     )

@@ -169,12 +169,15 @@ class Walls:
         """(W, S): of each wall particle the one on the wall that is nearest, or the mean of those equally near."""
         if not self.on_wall:
             return csr_array((self.count, 0))
-        tree = cKDTree(self.dummies.positions[: self.on_wall])
+        places, source = self.dummies.positions[: self.on_wall], np.arange(self.on_wall)
+        if self.domain is not None:
+            places, source = self.domain.with_images(places, self.reach)
+        tree = cKDTree(places)
         distance = np.asarray(tree.query(self.feet)[0])
         listed = tree.query_ball_point(self.feet, distance + EQUAL * self.spacing)
         numbers = np.array([len(found) for found in listed])
         starts = np.concatenate(([0], np.cumsum(numbers)))
-        column = np.concatenate([np.sort(found) for found in listed])
+        column = np.concatenate([np.sort(source[found]) for found in listed])
         return csr_array((np.repeat(1.0 / numbers, numbers), column, starts), shape=(self.count, self.on_wall))
 
     def normal_derivatives(self, positions: Array, column: Array, columns: int) -> csr_array:
