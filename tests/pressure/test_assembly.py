@@ -82,7 +82,7 @@ def test_there_is_room_for_walls_that_see_much_fluid(walls: int) -> None:
     unknowns = 60
     places = np.arange(unknowns), unknowns + np.arange(unknowns) % walls
     behind = narrow(csr_array((np.ones(unknowns), places), shape=(unknowns, unknowns + walls)))
-    mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) + 0.1)
+    mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) * 0.8 + 0.1)
     jump, fixed = np.arange(walls, dtype=float), np.zeros(unknowns, bool)
     matrix, known = eliminated(behind, mirrored, jump, fixed, unknowns)
     expected, right = dense(behind.toarray(), mirrored.toarray(), jump, fixed, unknowns)
@@ -106,6 +106,15 @@ def test_a_wall_whose_fluid_weighs_nothing_is_left_out() -> None:
     matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
     np.testing.assert_array_equal(matrix.toarray(), [[-2.0, 2.0], [2.0, -2.0]])
     assert not known.any()
+
+
+def test_a_row_that_walls_would_give_a_positive_diagonal_is_without_them() -> None:
+    """As in a narrow corner, whose mirrored pressures are mostly the particle's own; other rows keep theirs."""
+    weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 3.0]]))
+    mirrored = narrow(np.array([[1.9, -0.9]]))
+    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    np.testing.assert_allclose(matrix.toarray(), [[-2.0, 2.0], [2.0 + 3.0 * 1.9, -5.0 - 3.0 * 0.9]], atol=1e-14)
+    np.testing.assert_array_equal(known, [0.0, 15.0])
 
 
 def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:

@@ -41,7 +41,6 @@ def test_a_manufactured_pressure_in_boxes_of_all_kinds(counts: tuple[int, ...], 
     right = system.matrix @ exact
     found = solve(system, right, tolerance=1e-8)
     assert found.preconditioner == "grid"
-    assert found.converged
     assert not found.retried
     assert found.iterations <= 25
     assert found.residual <= 1.01e-8

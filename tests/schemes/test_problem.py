@@ -39,6 +39,14 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "infinite force": ({"body_force": (0.0, np.inf)}, "the body force of a problem has 2 finite numbers"),
     "velocities": ({"velocities": np.zeros((3, 2))}, "a problem has a velocity for each position"),
     "flat": ({"positions": X[:, 0]}, r"the positions of a problem are numbers of shape \(N, d\), not of shape"),
+    "solid box": (
+        {"box": Box((0.0,) * 3, (1.0,) * 3, ("periodic",) * 3), "body_force": (0.0,) * 3},
+        "the positions of a problem have 2 coordinates and its box has 3",
+    ),
+    "thin box": (
+        {"box": Box((0.0,), (1.0,), ("periodic",)), "body_force": (0.0,)},
+        "the positions of a problem have 2 coordinates and its box has 1",
+    ),
     "text": ({"positions": [["a", "b"]]}, "the positions of a problem are numbers of shape"),
 }
 

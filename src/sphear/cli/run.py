@@ -105,7 +105,7 @@ def _start(run: FlowRun) -> str:
     ]
     if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
-    lines += [f"  warning: {said}" for said in settings.without_effect()]
+    lines += [f"  warning: {said}" for said in settings.without_effect(flow.problem.walled)]
     steps = min(run.planned * run.unit / flow.time_step, settings.max_steps)
     end = f"{run.case.time_name} = {steps * flow.time_step / run.unit:.4g}"
     lines.append(f"  from step {flow.steps} to about step {steps:.0f}, {end}; Ctrl-C ends it before")

@@ -46,7 +46,19 @@ def choices(texts: Iterable[str]) -> dict[str, list[str]]:
         key, values = key_and_value("--over", text, "resolution=10,20,40")
         if key in over:
             raise SphearError(f"--over {key} is given twice: write all its values into one, separated by commas")
-        over[key] = [value.strip() for value in values.split(",")]
+        over[key] = [value.strip() for value in _split(values)]
         if not all(over[key]):
             raise SphearError(f"--over {key} needs values separated by commas, such as {key}=V1,V2, not {values!r}")
     return over
+
+
+def _split(text: str) -> list[str]:
+    """The parts between commas, but for those in brackets."""
+    parts, depth = [""], 0
+    for letter in text:
+        depth += (letter in "([{") - (letter in ")]}")
+        if letter == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    return parts

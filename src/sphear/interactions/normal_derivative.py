@@ -12,9 +12,8 @@ from sphear.kernels import Kernel
 
 
 class NormalCoefficients(NamedTuple):
-    """M^-1 n of a point on a wall, and how far M is from singular."""
+    """M^-1 n of a point on a wall; zero where M is singular."""
 
-    quality: Scalar
     coefficients: Vector
 
 
@@ -28,8 +27,6 @@ class NormalFit:
 
     kernel: Kernel
 
-    least_quality = 1e-6
-
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> Any:
         """One particle's part of M."""
         weight = other.volume * self.kernel.value(r2, len(d)) / r2
@@ -37,8 +34,8 @@ class NormalFit:
 
     def finish(self, own: Any, total: Any) -> NormalCoefficients:
         """M^-1 n."""
-        quality, inverse = safe_inverse(total)
-        return NormalCoefficients(quality, apply(transpose(inverse), own.normal))
+        _, inverse = safe_inverse(total)
+        return NormalCoefficients(apply(transpose(inverse), own.normal))
 
 
 @dataclass(frozen=True)

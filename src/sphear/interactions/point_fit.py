@@ -14,9 +14,8 @@ LEAST_SUM = 1e-9  # of the weights: below, there is no fluid near the point
 
 
 class PointCoefficients(NamedTuple):
-    """c of the weights V_j W_j c . (1, r_j - x), and whether there is any fluid (1) or not (0)."""
+    """c of the weights V_j W_j c . (1, r_j - x); zero where there is no fluid."""
 
-    fluid: Scalar
     coefficients: Vector
 
 
@@ -51,12 +50,12 @@ class PointFit:
         mean = some / where_less(LEAST_SUM, one, one, 1.0)
         size = own.dimension + 1
         if not self.order:
-            return PointCoefficients(some, (mean, *(0.0 for _ in range(size - 1))))
+            return PointCoefficients((mean, *(0.0 for _ in range(size - 1))))
         matrix, right = symmetric(total, size), (1.0, *(0.0 for _ in range(size - 1)))
         pivot, solution = solve(matrix, right)
         plain = (mean, *(0.0 for _ in range(size - 1)))
         chosen = tuple(where_less(self.least_pivot * one, pivot, a, b) for a, b in zip(solution, plain, strict=True))
-        return PointCoefficients(some, chosen)
+        return PointCoefficients(chosen)
 
 
 @dataclass(frozen=True)

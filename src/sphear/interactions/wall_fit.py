@@ -14,9 +14,8 @@ LEAST_PIVOT = 1e-5
 
 
 class WallCoefficients(NamedTuple):
-    """c of the weights V_j W_j c . b_j, and whether there is any fluid (1) or not (0)."""
+    """c of the weights V_j W_j c . b_j; zero where there is no fluid."""
 
-    fluid: Scalar
     coefficients: Vector
 
 
@@ -56,11 +55,11 @@ class WallFit:
         some = where_less(LEAST_SUM, squares, 1.0, 0.0)
         slope = some * x / where_less(LEAST_SUM, squares, squares, 1.0)
         if self.terms == 1:
-            return WallCoefficients(some, (slope,))
+            return WallCoefficients((slope,))
         pivot, solution = solve(symmetric(total, 3), (x, x * x, 0.0))
         line = (slope, 0.0, 0.0)
         chosen = tuple(where_less(LEAST_PIVOT * squares, pivot, a, b) for a, b in zip(solution, line, strict=True))
-        return WallCoefficients(some, chosen)
+        return WallCoefficients(chosen)
 
 
 @dataclass(frozen=True)

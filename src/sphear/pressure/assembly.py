@@ -45,32 +45,39 @@ def _eliminate(  # type: ignore[no-untyped-def]
             new_columns[begin], new_weights[begin] = row, diagonal
             new_starts[row + 1] = count
             continue
-        place[row] = begin  # where a column of this row is kept; the diagonal comes first
-        new_columns[begin], new_weights[begin] = row, 0.0
-        count += 1
-        for k in range(starts[row], starts[row + 1]):
-            column, weight = columns[k], weights[k]
-            if column < unknowns:
-                diagonal -= weight
-                if not (fixed[column] or fixed[row]):
-                    if place[column] < begin:
-                        place[column] = count
-                        new_columns[count], new_weights[count] = column, 0.0
-                        count += 1
-                    new_weights[place[column]] += weight
-            elif not natural and seen[column - unknowns]:
-                wall = column - unknowns
-                diagonal -= weight
-                if not fixed[row]:
-                    known[row] += weight * jump[wall]
-                for m in range(to[wall], to[wall + 1]):
-                    column = of[m]
+        walls = not natural
+        while True:
+            place[row] = begin  # where a column of this row is kept; the diagonal comes first
+            new_columns[begin], new_weights[begin] = row, 0.0
+            count += 1
+            for k in range(starts[row], starts[row + 1]):
+                column, weight = columns[k], weights[k]
+                if column < unknowns:
+                    diagonal -= weight
                     if not (fixed[column] or fixed[row]):
                         if place[column] < begin:
                             place[column] = count
                             new_columns[count], new_weights[count] = column, 0.0
                             count += 1
-                        new_weights[place[column]] += weight * share[m]
+                        new_weights[place[column]] += weight
+                elif walls and seen[column - unknowns]:
+                    wall = column - unknowns
+                    diagonal -= weight
+                    if not fixed[row]:
+                        known[row] += weight * jump[wall]
+                    for m in range(to[wall], to[wall + 1]):
+                        column = of[m]
+                        if not (fixed[column] or fixed[row]):
+                            if place[column] < begin:
+                                place[column] = count
+                                new_columns[count], new_weights[count] = column, 0.0
+                                count += 1
+                            new_weights[place[column]] += weight * share[m]
+            if not walls or fixed[row] or new_weights[begin] + diagonal < 0.0:
+                break
+            for m in range(begin, count):  # in a narrow corner pressures behind walls may be mostly the particle's own
+                place[new_columns[m]] = -1
+            walls, diagonal, known[row], count = False, 0.0, 0.0, begin
         new_weights[begin] += diagonal if not fixed[row] or diagonal < 0.0 else -1.0  # of a particle that is alone
         new_starts[row + 1] = count
     return count
@@ -84,7 +91,7 @@ def eliminated(
     Args:
         weights: (R, unknowns + W), w_ij; row i is of unknown i.
         mirrored: (W, unknowns), m_wk; a wall particle without any is left out, and None leaves out all: the natural
-            condition.
+            condition. So has a row whose diagonal they would make positive, as can be in a narrow corner.
         jump: (W,).
         fixed: (unknowns,), where the pressure is zero: these rows hold their diagonal only.
         unknowns: how many pressures are asked for.

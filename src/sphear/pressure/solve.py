@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from sphear.errors import SphearError
 from sphear.pressure.failure import PressureFailure
-from sphear.pressure.krylov import Run, Vector, iterate, product
+from sphear.pressure.krylov import Run, Vector, iterate
 from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Preconditioner
 from sphear.pressure.system import ROUNDING, PressureSystem
 from sphear.pressure.vectors import norm
@@ -32,7 +32,6 @@ class Solution:
         imbalance: |lambda| ||1|| / ||b||, the share of the right-hand side that a singular system cannot have.
         method: cg, bicgstab, gmres, or direct where there was nothing to do.
         preconditioner: the one it was reached with.
-        converged: whether the residual is within the tolerance; False is raised as `PressureFailure`.
         retried: whether the preconditioner asked for did not suffice.
     """
 
@@ -42,7 +41,6 @@ class Solution:
     imbalance: float
     method: str
     preconditioner: str
-    converged: bool = True
     retried: bool = False
 
 
@@ -94,14 +92,14 @@ def solve(
     # of length one, so that what is small does not depend on units
     balanced, guess = balanced / length, None if guess is None else guess / length
     attempt = _attempt(system, balanced, guess, first, tolerance, most, robust=False)
-    residual, retried = _residual(system, balanced, attempt.values), False
+    (residual, mean), retried = _residual(system, balanced, attempt.values), False
     iterations, used = attempt.iterations, first
     if not residual <= SLACK * tolerance:
         retried, used = True, _safer(first)
         most = MOST_AGAIN[used.name]
         system = replace(system, symmetric=False)  # which nothing that follows relies upon any more
         attempt = _attempt(system, balanced, None, used, tolerance, most, robust=True)
-        residual = _residual(system, balanced, attempt.values)
+        residual, mean = _residual(system, balanced, attempt.values)
         iterations += attempt.iterations
         if not residual <= SLACK * tolerance:
             raise PressureFailure(iterations, residual, tolerance, _reason(system, first.name, used.name))
@@ -109,7 +107,7 @@ def solve(
     values, imbalance = length * attempt.values, 0.0
     if system.singular:
         values -= values.mean()
-        excess = right.mean() if system.symmetric else (right - system.matrix @ values).mean()
+        excess = right.mean() if system.symmetric else right.mean() - length * mean
         imbalance = float(abs(excess) * np.sqrt(system.unknowns) / whole)
     return Solution(values, iterations, residual, imbalance, attempt.method, used.name, retried=retried)
 
@@ -131,14 +129,17 @@ def _attempt(
             run = iterate(system, right, guess, inverse, tolerance, most - iterations, robust=robust)
         iterations += run.iterations
         finite = bool(np.isfinite(run.values).all())
-        if not finite or iterations >= most or _residual(system, right, run.values) <= SLACK * tolerance:
+        if not finite or iterations >= most or _residual(system, right, run.values)[0] <= SLACK * tolerance:
             break
         guess = run.values
     return Run(run.values, iterations, run.method)
 
 
-def _residual(system: PressureSystem, right: Vector, values: Vector) -> float:
-    return norm(right - product(system)(values))
+def _residual(system: PressureSystem, right: Vector, values: Vector) -> tuple[float, float]:
+    """||b - A p||, without its mean where the system is singular and not symmetric; and the mean of A p."""
+    along: Vector = system.matrix @ values
+    mean = float(along.mean())
+    return norm(right - (along - mean if system.singular and not system.symmetric else along)), mean
 
 
 def _safer(preconditioner: Preconditioner) -> Preconditioner:

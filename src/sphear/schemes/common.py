@@ -11,6 +11,7 @@ from sphear.errors import SphearError
 from sphear.names import unknown
 
 LEAST_REYNOLDS, LARGEST_REYNOLDS = 1e-100, 1e100  # beyond, squares vanish or overflow
+OPEN = "no walls"
 
 
 class SchemeSettings(BaseModel):
@@ -60,17 +61,21 @@ class SchemeSettings(BaseModel):
             )
         return reynolds
 
-    def without_effect(self) -> list[str]:
-        """What was chosen, not as usual, and changes nothing beside the other settings; a sentence each."""
+    def without_effect(self, walled: bool) -> list[str]:
+        """What was chosen, not as usual, and changes nothing beside the other settings; a sentence each.
+
+        Args:
+            walled: whether the flow has walls.
+        """
         unusual = {
             name for name in self.model_fields_set if getattr(self, name) != type(self).model_fields[name].default
         }
         return [
             f"{name} has no effect with {beside}"
-            for name, (beside, without) in self._idle().items()
+            for name, (beside, without) in self._idle(walled).items()
             if without and name in unusual
         ]
 
-    def _idle(self) -> dict[str, tuple[str, bool]]:
+    def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         """The setting beside which another has no effect, and whether it is so."""
         return {}

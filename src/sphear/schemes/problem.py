@@ -12,6 +12,7 @@ import numpy as np
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Shape
 from sphear.errors import SphearError
+from sphear.neighbours import Domain
 
 Array = np.ndarray[Any, Any]
 
@@ -58,6 +59,11 @@ class Problem:
                 f"a problem has a velocity for each position, and these are {self.velocities.shape} and"
                 f" {self.positions.shape}"
             )
+        if self.positions.shape[1] != len(self.box.lower):
+            raise SphearError(
+                f"the positions of a problem have {self.positions.shape[1]} coordinates and its box has"
+                f" {len(self.box.lower)}"
+            )
         if np.shape(self.body_force) != (len(self.box.lower),) or not np.isfinite(self.body_force).all():
             raise SphearError(
                 f"the body force of a problem has {len(self.box.lower)} finite numbers, not {self.body_force!r}"
@@ -72,6 +78,16 @@ class Problem:
     def periodic(self) -> tuple[bool, ...]:
         """Whether the flow repeats, along each axis."""
         return tuple(side == "periodic" for side in self.box.sides)
+
+    @property
+    def window(self) -> Domain:
+        """The box with its periodic axes."""
+        return Domain(self.box.lower, self.box.upper, self.periodic)
+
+    @property
+    def walled(self) -> bool:
+        """Whether there are walls."""
+        return self.shape is not None or not all(self.periodic)
 
     def time_step_limits(self, h: float, sound_speed: float, radial: bool = False) -> dict[str, float]:
         """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997).

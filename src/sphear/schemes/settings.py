@@ -7,7 +7,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from sphear.errors import SphearError
-from sphear.schemes.common import SchemeSettings
+from sphear.schemes.common import OPEN, SchemeSettings
 
 
 class FlowSettings(SchemeSettings):
@@ -105,12 +105,13 @@ class FlowSettings(SchemeSettings):
                 raise SphearError(sentence)
         return self
 
-    def _idle(self) -> dict[str, tuple[str, bool]]:
+    def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {
             "diffusion_form": ("density_diffusion=0", self.density_diffusion == 0),
             "shifting_strength": (f"transport={self.transport}", self.transport != "shifting"),
             "background_pressure": (f"transport={self.transport}", self.transport != "transport_velocity"),
-            "wall_velocity": (f"walls={self.walls}", self.walls == "adami"),
+            "wall_velocity": (f"walls={self.walls}", self.walls == "adami") if walled else (OPEN, True),
+            "slip": (OPEN, not walled),
             "initial_pressure": (
                 f"equation_of_state={self.equation_of_state}",
                 self.equation_of_state != "ideal_gas",

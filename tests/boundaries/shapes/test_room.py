@@ -100,3 +100,22 @@ def test_walls_without_fluid_or_room_for_particles_are_refused() -> None:
         check(CAVITY, dx=-1.0)
     with pytest.raises(SphearError, match="cannot repeat"):
         check(Rectangle((0, 0), (inf, 1)), CHANNEL)
+
+
+@pytest.mark.parametrize(
+    ("shape", "thickness"),
+    [
+        (CAVITY & ~Rectangle((-1, 0.5), (2, 0.6)), "0.1"),
+        (CAVITY & ~Rectangle((0.45, -1), (0.55, 0.6)), "0.1"),
+        (CAVITY - Circle((0.5, 0.5), 0.06), "0.12"),
+        (Rectangle((0, 0), (0.4, 1)) | Rectangle((0.5, 0), (1, 1)), "0.1"),
+    ],
+)
+def test_solids_through_which_the_fluid_would_feel_itself_are_refused(shape: Shape, thickness: str) -> None:
+    with pytest.raises(SphearError, match=f"is {thickness} thick: fluid on its two sides would feel each other"):
+        check(shape)
+
+
+def test_corners_of_solids_are_not_thin() -> None:
+    check(CAVITY - Polygon(((0.3, 0.3), (0.75, 0.3), (0.5, 0.7))))
+    check(CAVITY & ~(Circle((0.4, 0.0), 0.2) | Rectangle((0.75, -1), (2.0, 0.5))))

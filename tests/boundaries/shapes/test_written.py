@@ -36,6 +36,12 @@ WRONG = {
     "Circle((0.3, 0.5), 0.1, colour=2)": "unexpected keyword argument 'colour': it takes centre, radius",
     "Circle((0.3, 0.5), open('x'))": "are to be numbers",
     "Circle((0.3, 0.5), -1)": "the radius of a circle is positive, not -1",
+    "Circle((0.3, 0.5), " + "1" * 400 + ")": "the radius of a circle is a finite number",
+    "Circle((0.3, " + "1" * 400 + "), 1)": "the centre of a circle has two finite numbers",
+    "Circle((0.3, 0.5), True)": "the radius of a circle is a finite number, not True",
+    "Circle((0.3, 0.5), radius=0.1, radius=0.2)": "each argument is given once",
+    "Polygon([(0, 0), (1, 0), (0, 1)], {True: (1, 0)})": "the edges of the polygon are numbered 0 to 2, not True",
+    "Polygon([(0, 0), (1, 0), (0, 1)], ((([],), (1, 0)),))": "are given by name",
     "(" * 500: "a shape is",
     " | ".join(["Circle((0.3, 0.5), 0.1)"] * 5000): "of these there are more than can be joined",
 }

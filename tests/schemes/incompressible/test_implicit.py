@@ -71,6 +71,6 @@ def test_an_explicit_step_beyond_the_limit_is_refused() -> None:
 def test_what_does_not_converge_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sphear.schemes.incompressible.viscous.MOST", 1)
     run = case("poiseuille", viscous_step="backward_euler", time_step=0.015)
-    with pytest.raises(FlowFailure, match="at t = 0: the implicit viscous step did not converge in 1 iterations"):
+    with pytest.raises(FlowFailure, match="at t = 0: the implicit viscous step was not solved: after 1 iterations"):
         run.flow.advance(1)
     assert run.run().end.startswith("failed: the flow failed at t = 0: the implicit viscous step")

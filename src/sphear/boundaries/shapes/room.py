@@ -55,8 +55,8 @@ def check_room(shape: Shape, spacing: float, depth: float, box: Domain, support:
     if thin := narrowest_gap(Complement(shape), spacing, box, THICK * depth):
         width, place = thin
         raise SphearError(
-            f"the solid at {text(place)} is {width:.3g} thick: fluid on its two sides would feel each other through what"
-            f" is thinner than {THICK * depth:.3g}; a finer spacing or a thicker solid is needed"
+            f"the solid at {text(place)} is {width:.3g} thick: fluid on its two sides would feel each other through"
+            f" what is thinner than {THICK * depth:.3g}; a finer spacing or a thicker solid is needed"
         )
     if gap := narrowest_gap(shape, spacing, box, support):
         width, place = gap

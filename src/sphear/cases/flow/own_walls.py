@@ -9,7 +9,6 @@ import numpy as np
 from sphear.boundaries.shapes import Shape, fastest, fitted, repeated, written
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings, kinetic_energy
 from sphear.errors import SphearError
-from sphear.neighbours import Domain
 from sphear.schemes.incompressible.region import between_walls
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
@@ -56,7 +55,7 @@ def around(problem: Problem, solid: Shape) -> Problem:
     """
     fluid = problem.shape if problem.shape is not None else between_walls(problem.box)
     shape = ~solid if fluid is None else fluid & ~solid  # which may stand on a wall
-    window = Domain(problem.box.lower, problem.box.upper, problem.periodic)
+    window = problem.window
     positions, kept = fitted(problem.positions, repeated(shape, window), problem.spacing)
     if not len(kept):
         raise SphearError(f"the {solid} leaves no particle of the fluid")

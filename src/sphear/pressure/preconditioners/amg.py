@@ -33,10 +33,14 @@ class AlgebraicMultigrid(Preconditioner):
         """Whether pyamg can be imported."""
         return find_spec("pyamg") is not None
 
-    def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
-        """Choose the coarse levels and set them up."""
+    def check(self) -> None:
+        """Ask for pyamg."""
         if not self.installed():
             raise SphearError('the preconditioner amg needs pyamg: pip install "sphear[amg]"')
+
+    def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
+        """Choose the coarse levels and set them up."""
+        self.check()
         import pyamg
 
         matrix = csr_matrix(-system.matrix)  # pyamg takes no csr_array, and positive definite matrices

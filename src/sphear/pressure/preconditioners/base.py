@@ -25,6 +25,13 @@ class Preconditioner:
     aliases: ClassVar[tuple[str, ...]] = ()
     formula: ClassVar[str]
 
+    def check(self) -> None:
+        """Refuse what cannot be had here.
+
+        Raises:
+            SphearError: a package that it needs is not installed.
+        """
+
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """The function that applies M to a vector (n,); M stands for the inverse of the matrix."""
         raise NotImplementedError

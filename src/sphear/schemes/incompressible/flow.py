@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -119,12 +120,14 @@ class IncompressibleFlow:
         return limits
 
     def advance(self, steps: int) -> None:
-        """Make steps.
+        """Make steps; none at all compile what a step needs.
 
         Raises:
             FlowFailure: the flow broke down; the state is that of the moment.
         """
         keep_freed_memory()  # the rows of the pressure equation are large even of small flows
+        if not steps:
+            self._compile()
         for _ in range(steps):
             try:
                 with np.errstate(all="ignore"):  # what breaks down is no number in the end
@@ -133,6 +136,13 @@ class IncompressibleFlow:
                 raise
             except SphearError as error:
                 raise FlowFailure(f"the flow failed at t = {self.time:g}: {error}") from None
+
+    def _compile(self) -> None:
+        """Make a step and take it back."""
+        state = self.state()
+        with suppress(SphearError), np.errstate(all="ignore"):
+            self._step()
+        self.restore(state)
 
     def _predicted(self, sums: Sums, time: float) -> Array:
         """(N, d), the acceleration by viscosity and forces, over the step."""
@@ -205,8 +215,8 @@ class IncompressibleFlow:
     def introduction(self) -> str:
         """How the pressure is found."""
         settings = self.settings
-        how = f"preconditioner {settings.preconditioner}, walls {settings.neumann}"
-        return f"pressure to {settings.tolerance:g}, {how}"
+        walls = f", walls {settings.neumann}" if self.discretisation.walls is not None else ""
+        return f"pressure to {settings.tolerance:g}, preconditioner {self.pressures.preconditioner}{walls}"
 
     def state(self) -> dict[str, Array]:
         """All that a run needs to go on, by name; copies."""

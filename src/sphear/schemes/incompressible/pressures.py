@@ -59,7 +59,7 @@ class Pressures:
         iterations, residual: of the last solve.
 
     Raises:
-        SphearError: the Laplacian cannot be that of a pressure, or there is no such preconditioner.
+        SphearError: the Laplacian cannot be that of a pressure, or there is no such preconditioner here.
     """
 
     def __init__(
@@ -67,6 +67,7 @@ class Pressures:
     ) -> None:
         laplacian = pressure_laplacian(problem, settings, kernel)
         self.preconditioner = PRECONDITIONERS.name(settings.preconditioner)
+        PRECONDITIONERS[self.preconditioner].check()
         self.density, self.spacing = problem.density, problem.spacing
         self.alpha, self.tolerance = alpha, settings.tolerance
         self.walls = walls

@@ -25,11 +25,32 @@ FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond
 
 
 def region(problem: Problem) -> Shape | None:
-    """The region of fluid: the problem's own, or that between the walls of its box; None without walls."""
-    shape = problem.shape if problem.shape is not None else between_walls(problem.box)
-    if problem.shape is None or shape is None:
-        return shape
-    return repeated(shape, Domain(problem.box.lower, problem.box.upper, problem.periodic))
+    """The region of fluid: the problem's own, or that between the walls of its box; None without walls.
+
+    Raises:
+        SphearError: its own goes on beyond a wall of the box.
+    """
+    if problem.shape is None:
+        return between_walls(problem.box)
+    whole = repeated(problem.shape, problem.window)
+    _check_box(whole, problem)
+    return whole
+
+
+def _check_box(whole: Shape, problem: Problem) -> None:
+    """Refuse fluid on the other side of a wall of the box."""
+    low, high = np.array(problem.box.lower), np.array(problem.box.upper)
+    for axis in problem.box.wall_axes:
+        along = np.arange(low[1 - axis], high[1 - axis], problem.spacing) + 0.5 * problem.spacing
+        for wall, way in ((low, -1.0), (high, 1.0)):
+            beyond = np.empty((len(along), 2))
+            beyond[:, 1 - axis] = along
+            beyond[:, axis] = wall[axis] + way * LITTLE * problem.spacing
+            if (whole.distance(beyond) > 0).any():
+                raise SphearError(
+                    f"the shape of the fluid goes on beyond the wall of the box at {'xy'[axis]} = {wall[axis]:g}: cut"
+                    " it there, with &, or take a larger box"
+                )
 
 
 def between_walls(box: Box) -> Shape | None:
@@ -70,8 +91,7 @@ def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel,
     shape = problem.shape if problem.shape is not None else between_walls(problem.box)
     if shape is None:
         return None
-    window = Domain(problem.box.lower, problem.box.upper, problem.periodic)
-    dx = problem.spacing
+    window, dx = problem.window, problem.spacing
     check_room(shape, dx, supports * kernel.radius, window, kernel.radius)
     behind = dummies(shape, dx, math.ceil(supports * kernel.radius / dx) * dx, window)
     if not len(behind.positions):

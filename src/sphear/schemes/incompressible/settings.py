@@ -7,7 +7,7 @@ from typing import Literal, Self
 from pydantic import Field, model_validator
 
 from sphear.errors import SphearError
-from sphear.schemes.common import SchemeSettings
+from sphear.schemes.common import OPEN, SchemeSettings
 
 
 class IncompressibleSettings(SchemeSettings):
@@ -85,8 +85,9 @@ class IncompressibleSettings(SchemeSettings):
             written(self.solid)
         return self
 
-    def _idle(self) -> dict[str, tuple[str, bool]]:
+    def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {
+            **dict.fromkeys(("neumann", "wall_velocity", "slip"), (OPEN, not walled)),
             "shifting_strength": ("shifting=none", self.shifting == "none"),
             "seed": (f"initial={self.initial}", self.initial != "relaxed"),
         }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from sphear.interactions import Gradient
 from sphear.interactions.free_surface import Concentration
 from sphear.interactions.pressure_gradient import SymmetricGradient
 from sphear.kernels import Kernel
-from sphear.neighbours import Domain
 from sphear.operators import arguments
 from sphear.schemes.incompressible.free_surface import surface, wetted
 from sphear.schemes.incompressible.places import Places
@@ -52,7 +52,7 @@ class Discretisation:
         self.correction = arguments.read_correction(settings.gradient_correction, None)
         self.count = len(problem.positions)
         self.region = region(problem)
-        self.domain = Domain(problem.box.lower, problem.box.upper, problem.periodic) if any(problem.periodic) else None
+        self.domain = problem.window if any(problem.periodic) else None
         self.walls = walls_of(problem, settings, kernel, 2 if viscous.of_all else 1)
         self.lattice_sum = self._lattice_sum()
 
@@ -142,12 +142,16 @@ class Sums:
 
     def viscous(self, u: Array) -> Array:
         """(N, d), the viscous acceleration of velocities (N, d)."""
-        how, here = self.how, self.places
-        if how.viscous.of_all and how.walls is not None:
-            volume = here.fields["volume"]
-            here = Places(here.positions, here.total, how.kernel, volume, how.domain, how.threads)
+        how = self.how
+        here = self._all if how.viscous.of_all and how.walls is not None else self.places
         near = None if self.surface is None else self.surface.near
         return how.viscous.acceleration(here, self.continued(u), how.count, near)
+
+    @cached_property
+    def _all(self) -> Places:
+        """The places of fluid and walls, all of which have sums."""
+        how, here = self.how, self.places
+        return Places(here.positions, here.total, how.kernel, here.fields["volume"], how.domain, how.threads)
 
     def continued(self, u: Array) -> Array:
         """(N + W, d), velocities as the viscous term sees them."""
