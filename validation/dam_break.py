@@ -8,6 +8,7 @@ Writes dam_break.json beside itself, and the picture of the documentation.
 from __future__ import annotations
 
 import json
+from argparse import ArgumentParser, RawDescriptionHelpFormatter
 from pathlib import Path
 from typing import Any
 
@@ -70,6 +71,7 @@ def figure(rows: list[dict[str, Any]], snapshots: list[tuple[Array, Array, float
 
 def main() -> None:
     """Compute, print, write and draw."""
+    ArgumentParser(description=__doc__, formatter_class=RawDescriptionHelpFormatter).parse_args()
     rows = []
     for size in SIZES:
         row, snapshots = computed(size)

@@ -32,6 +32,12 @@ def _terms(text: str) -> tuple[str, ...]:
     return names
 
 
+def _item(text: str) -> str:
+    if text not in ITEMS:
+        raise argparse.ArgumentTypeError(f"choose from {', '.join(ITEMS)}, not {text!r}")
+    return text
+
+
 def _written(case: str) -> dict[str, Any] | None:
     path = RESULTS / f"{case}.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
@@ -49,7 +55,7 @@ def _missing(runs: list[Wanted], cases: list[str]) -> Iterator[Wanted]:
 def main() -> None:
     """Compute and write."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("items", nargs="*", metavar="ITEM", choices=[[], *ITEMS], help="such as figure-10")
+    parser.add_argument("items", nargs="*", metavar="ITEM", type=_item, help="such as figure-10")
     parser.add_argument("--workers", type=int, default=1, help="processes")
     parser.add_argument("--at-most", type=int, metavar="RESOLUTION", help="particles a side")
     parser.add_argument("--terms", type=_terms, metavar="TERM,TERM...", help=f"some of {', '.join(TERMS)}")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -104,6 +106,65 @@ def test_a_damaged_file_is_refused_in_one_sentence(damage: str, tmp_path: Path) 
     run.save(path)
     path.write_bytes(DAMAGES[damage](path.read_bytes()))
     with pytest.raises(SphearError, match=r"^there is no saved run in .* that could be gone on with$"):
+        run.restore(path)
+
+
+SPOILS: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
+    "a place is not a number": lambda state: {**state, "x": np.where(state["x"] > 0.5, np.nan, state["x"])},
+    "places are text": lambda state: {**state, "x": state["x"].astype(str)},
+    "places are complex": lambda state: {**state, "x": state["x"].astype(complex)},
+    "the clock is not a number": lambda state: {**state, "clock": np.full(2, np.nan)},
+    "no text": lambda state: {key: values for key, values in state.items() if key != "about"},
+    "nothing said": lambda state: {**state, "about": np.array("[]")},
+}
+SAID: dict[str, tuple[str, Any]] = {
+    "settings": ("settings", [1]), "no settings": ("settings", None), "case": ("case", 3),
+    "seconds": ("seconds", "long"), "time before": ("seconds", -1.0),
+    "history": ("history", [{"time": "soon", "steps": 1}]), "rows": ("history", [{}]),
+}  # fmt: skip
+
+
+def damaged(path: Path, spoil: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
+    with np.load(path, allow_pickle=False) as file:
+        state = spoil(dict(file))
+    np.savez(path, allow_pickle=False, **state)
+
+
+@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("spoil", SPOILS)
+def test_numbers_that_make_no_sense_are_refused_in_one_sentence(spoil: str, scheme: str, tmp_path: Path) -> None:
+    path, run = tmp_path / "state.npz", start(scheme)
+    run.save(path)
+    damaged(path, SPOILS[spoil])
+    with pytest.raises(SphearError, match=r"^there is no saved run in .* that could be gone on with$"):
+        run.restore(path)
+
+
+@pytest.mark.parametrize("what", SAID)
+def test_a_text_that_makes_no_sense_is_refused_in_one_sentence(what: str, tmp_path: Path) -> None:
+    path, run = tmp_path / "state.npz", start()
+    run.save(path)
+    key, value = SAID[what]
+    damaged(
+        path, lambda state: {**state, "about": np.array(json.dumps({**json.loads(str(state["about"])), key: value}))}
+    )
+    with pytest.raises(SphearError, match=r"^there is no saved run in .* that could be gone on with$"):
+        run.restore(path)
+
+
+def test_a_saved_run_is_known_by_any_alias(tmp_path: Path) -> None:
+    FlowRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="morris", resolution=10)).save(tmp_path / "state.npz")
+    FlowRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="E", resolution=10)).restore(tmp_path / "state.npz")
+
+
+@pytest.mark.parametrize("place", range(0, 1600, 37))
+def test_no_changed_byte_is_a_traceback(place: int, tmp_path: Path) -> None:
+    path, run = tmp_path / "state.npz", start()
+    run.save(path)
+    whole = bytearray(path.read_bytes())
+    whole[place] ^= 0xFF
+    path.write_bytes(bytes(whole))
+    with suppress(SphearError):
         run.restore(path)
 
 

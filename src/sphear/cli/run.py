@@ -106,7 +106,12 @@ def _start(run: FlowRun) -> str:
     if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
     lines += [f"  warning: {said}" for said in settings.without_effect(flow.problem.walled)]
-    steps = min(run.planned * run.unit / flow.time_step, settings.max_steps)
+    needed = math.ceil(run.planned * run.unit / flow.time_step) if math.isfinite(run.planned) else math.inf
+    steps = min(needed, settings.max_steps)
+    if needed > settings.max_steps and settings.until is not None and "max_steps" not in settings.model_fields_set:
+        lines.append(
+            f"  warning: it takes {needed:.3g} steps until {settings.until:g}, and max_steps is {settings.max_steps}"
+        )
     end = f"{run.case.time_name} = {steps * flow.time_step / run.unit:.4g}"
     lines.append(f"  from step {flow.steps} to about step {steps:.0f}, {end}; Ctrl-C ends it before")
     return "\n".join(lines)
@@ -157,8 +162,10 @@ def _summary(metrics: dict[str, Any], table: Table) -> str:
 def _figure(run: FlowRun) -> Figure:
     import numpy as np
 
+    from sphear.boundaries.shapes import repeated
     from sphear.results.figure import flow_panels
 
+    problem = run.flow.problem
     times = [row["time"] for row in run.history]
     name = run.case.headline
     places, velocities = run.flow.positions, run.flow.velocities
@@ -168,8 +175,10 @@ def _figure(run: FlowRun) -> Figure:
         (times, [row[name] for row in run.history]),
         (run.case.time_name, name.replace("_", " ")),
         f"{run.case.name}: {run.settings.viscosity}, Re = {run.settings.reynolds:g},"
-        f" {run.case.time_name} = {times[-1]:.3g}",
-        (places, velocities, run.flow.problem.spacing) if plane else None,
+        f" {run.case.time_name} = {times[-1]:.3g}{', failed' if run.end.startswith('failed') else ''}",
+        (places, velocities, problem.spacing) if plane else None,
+        run.case.known(run.settings),
+        None if problem.shape is None else repeated(problem.shape, problem.window).distance,
     )
 
 

@@ -53,11 +53,20 @@ def as_text(data: dict[str, Any]) -> str:
 
 
 def runs_folder(paper: str) -> Path:
-    """Where the runs of a paper's studies are kept: in `$SPHEAR_RUNS_DIR`, else in the user's cache folder."""
+    """Where the runs of a paper's studies are kept: in `$SPHEAR_RUNS_DIR`, else in the user's cache folder.
+
+    Raises:
+        SphearError: there cannot be such a folder.
+    """
     from sphear.engine.cache import cache_directory
 
     chosen = os.environ.get("SPHEAR_RUNS_DIR")
-    return (Path(chosen) if chosen else cache_directory() / "runs") / paper
+    folder = (Path(chosen) if chosen else cache_directory() / "runs") / paper
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise SphearError(f"the folder for runs, {folder}, cannot be used: {error.strerror}") from None
+    return folder
 
 
 def store(paper: str) -> Store:

@@ -12,7 +12,6 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError
-from sphear.names import Registry
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
     from sphear.schemes.base import Settings
@@ -34,26 +33,11 @@ class Run:
     settings: Settings
 
     def __post_init__(self) -> None:
-        from sphear.boundaries import WALL_VELOCITIES
         from sphear.cases.flow import FLOWS
-        from sphear.corrections import CORRECTIONS
-        from sphear.kernels import KERNELS
-        from sphear.pressure import PRECONDITIONERS
-        from sphear.viscosity import VISCOSITY
+        from sphear.schemes.named import named
 
-        registries: dict[str, Registry[Any]] = {
-            "viscosity": VISCOSITY,
-            "correction": CORRECTIONS,
-            "gradient_correction": CORRECTIONS,
-            "kernel": KERNELS,
-            "laplacian": VISCOSITY,
-            "wall_velocity": WALL_VELOCITIES,
-            "preconditioner": PRECONDITIONERS,
-        }
-        given = {key: getattr(self.settings, key) for key in registries if hasattr(self.settings, key)}
-        names = {key: registries[key].name(value) for key, value in given.items()}
         object.__setattr__(self, "case", FLOWS.name(self.case))
-        object.__setattr__(self, "settings", self.settings.model_copy(update=names))
+        object.__setattr__(self, "settings", named(self.settings))
 
     @cached_property
     def given(self) -> dict[str, Any]:

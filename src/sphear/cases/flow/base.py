@@ -60,6 +60,7 @@ class FlowCase:
         summary: what is found at the end, beside the metrics.
         profiles: numbers along lines, at the end, that are kept with the results of a sweep.
         headline: the metric that is drawn against time.
+        known: that metric where others have it, times and values; None where nobody has.
         kinds: settings with more than the general ones, by scheme, where the case has any of its own.
         horizon: when a run without `until` is expected to end, in the time unit; None if it has no end of its own.
     """
@@ -75,6 +76,7 @@ class FlowCase:
     summary: Callable[[Settings, FlowInTime], dict[str, float]] = lambda settings, flow: {}
     profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"
+    known: Callable[[Settings], tuple[Array, Array] | None] = lambda settings: None
     horizon: float | None = None
     kinds: Mapping[str, type[Settings]] = field(default_factory=dict)
 

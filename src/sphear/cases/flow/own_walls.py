@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from sphear.boundaries.shapes import Shape, fastest, fitted, repeated, written
+from sphear.boundaries.shapes import Shape, fastest, fitted, fluid_lattice, repeated, written
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings, kinetic_energy
 from sphear.errors import SphearError
 from sphear.schemes.incompressible.region import between_walls
@@ -38,6 +38,7 @@ def opened(case: FlowCase, settings: Settings) -> FlowCase:
         summary=lambda settings, flow: {},
         profiles=lambda settings, flow: {},
         headline="kinetic_energy",
+        known=lambda settings: None,
     )
 
 
@@ -51,13 +52,21 @@ def around(problem: Problem, solid: Shape) -> Problem:
     """The problem with a solid in its fluid.
 
     Raises:
-        SphearError: the solid cannot repeat as the box does, or leaves no particle.
+        SphearError: the solid cannot repeat as the box does, is not where fluid can be, or leaves no particle.
     """
     fluid = problem.shape if problem.shape is not None else between_walls(problem.box)
     shape = ~solid if fluid is None else fluid & ~solid  # which may stand on a wall
     window = problem.window
+    if not _touched(problem, fluid, repeated(solid, window)):
+        raise SphearError(f"the {solid} is nowhere in the fluid: its coordinates are those of the flow")
     positions, kept = fitted(problem.positions, repeated(shape, window), problem.spacing)
     if not len(kept):
         raise SphearError(f"the {solid} leaves no particle of the fluid")
     speed = max(problem.speed, fastest(solid, problem.spacing, window))
     return replace(problem, positions=positions, velocities=problem.velocities[kept], shape=shape, speed=speed)
+
+
+def _touched(problem: Problem, fluid: Shape | None, solid: Shape) -> bool:
+    """Whether a solid is anywhere that fluid can be."""
+    places = problem.positions if fluid is None else fluid_lattice(fluid, problem.spacing, problem.window)
+    return bool((solid.distance(places) > -problem.spacing).any())

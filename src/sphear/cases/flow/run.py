@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
 from sphear.cases.flow.base import FlowCase, Settings
 from sphear.cases.flow.own_walls import opened
+from sphear.cases.flow.saved import About, read, write
 from sphear.errors import SphearError
 from sphear.schemes.base import FlowFailure, flow_in_time
+from sphear.schemes.named import named
 
 OUTPUTS = 200  # of a run to its planned end
 SAVED_EVERY = 60.0  # seconds
@@ -38,6 +38,7 @@ class FlowRun:
     """
 
     def __init__(self, case: FlowCase, settings: Settings) -> None:
+        settings = named(settings)
         self.case, self.settings = opened(case, settings), settings
         self.flow = flow_in_time(self.case.problem(settings), settings)
         self.unit = case.time_unit(settings)
@@ -113,16 +114,13 @@ class FlowRun:
 
     def save(self, path: Path) -> None:
         """Write all that the run needs to go on to a file, an `.npz` of NumPy."""
-        about = {
-            "case": self.case.name,
-            "settings": self.settings.model_dump(mode="json"),
-            "history": self.history,
-            "seconds": self.seconds,
-        }
-        temporary = path.with_suffix(".tmp")
-        with temporary.open("wb") as file:
-            np.savez(file, allow_pickle=False, about=np.array(json.dumps(about)), **self.flow.state())
-        temporary.replace(path)  # a run that is killed meanwhile leaves the file before
+        about = About(
+            case=self.case.name,
+            settings=self.settings.model_dump(mode="json"),
+            history=self.history,
+            seconds=self.seconds,
+        )
+        write(path, about, self.flow.state())
 
     def restore(self, path: Path) -> None:
         """Go on from a file that `save` wrote.
@@ -130,22 +128,16 @@ class FlowRun:
         Raises:
             SphearError: it cannot be read, or is of another run.
         """
-        try:
-            with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-                state = dict(file)
-            about = json.loads(str(state.pop("about")))
-            of, was, history, seconds = (about[key] for key in ("case", "settings", "history", "seconds"))
-            time, steps = (history[-1]["time"], history[-1]["steps"]) if history else (0.0, 0)
-        except (OSError, EOFError, ValueError, LookupError, TypeError, BadZipFile):
-            raise SphearError(f"there is no saved run in {path} that could be gone on with") from None
+        about, state = read(path)
+        was, (time, steps) = about.settings, about.reached
         now = self.settings.model_dump(mode="json")
         changed = [
             key
             for key, value in now.items()
             if was.get(key) != value and key not in ("until", "max_steps", "threads", "force")
         ]
-        if of != self.case.name:
-            raise SphearError(f"the saved run in {path} is of {of}, not of {self.case.name}")
+        if about.case != self.case.name:
+            raise SphearError(f"the saved run in {path} is of {about.case}, not of {self.case.name}")
         if changed:
             raise SphearError(
                 f"the saved run in {path} has {changed[0]} = {was.get(changed[0])}, not {now[changed[0]]}"
@@ -155,7 +147,7 @@ class FlowRun:
             if last is not None and reached > last:
                 raise SphearError(f"the saved run in {path} is already at {reached:g}, beyond {name} = {last:g}")
         self.flow.restore(state)
-        self.history, self.seconds = history, seconds
+        self.history, self.seconds = about.history, about.seconds
 
     def as_dict(self) -> dict[str, Any]:
         """Case, resolved settings, metrics and performance, as `--json` prints them."""

@@ -15,11 +15,10 @@ from matplotlib.patches import Circle
 from numpy.typing import ArrayLike, NDArray
 
 from sphear.results.figure.history import REFERENCES
-from sphear.results.figure.style import FAINT, INK, Curve, grid, key, look, styled
+from sphear.results.figure.style import FAINT, INK, SOLID, Curve, grid, key, look, styled
 
 NOT_COMPUTED = "not computed"
 PARTICLE = "#d55e00"
-SOLID = "#d9d9d9"
 ROOM = 0.03  # around the unit square
 
 

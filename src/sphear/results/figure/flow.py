@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
-from sphear.results.figure.style import FAINT, INK, Curve, grid, key, look, styled
+from sphear.results.figure.style import FAINT, INK, SOLID, Curve, grid, key, look, styled
 
 if TYPE_CHECKING:
     from sphear.cases.flow import Comparison
@@ -22,6 +22,7 @@ RASTERED = 2000  # particles, from which on they are a picture in a vector file 
 PANEL = (2.7, 2.5)  # inches, about, that particles are drawn in
 _CURVE: dict[str, Any] = {"color": FAINT}
 _TABLE: dict[str, Any] = {"color": FAINT, "linestyle": "none", "marker": "s", "fillstyle": "none"}
+FINE = 400  # points a side, at which what is solid is looked at
 GAP = 1.15  # spacings, as which a particle is drawn wide, so that fluid has no holes
 
 
@@ -32,6 +33,8 @@ def flow_panels(
     labels: tuple[str, str],
     title: str,
     particles: tuple[ArrayLike, ArrayLike, float] | None = None,
+    known: tuple[ArrayLike, ArrayLike] | None = None,
+    distance: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
 ) -> Figure:
     """Draw each profile of a flow with its reference, a metric against time, and the particles by their speed.
 
@@ -41,31 +44,39 @@ def flow_panels(
         labels: what the times and the metric are called.
         title: of the figure.
         particles: places (N, 2), velocities (N, 2) and their spacing; None draws none.
+        known: times, and the metric that others have at each; None draws none.
+        distance: (M,) of places (M, 2) from walls, negative in what is solid; None draws no walls.
     """
     panels = len(comparisons) + 1 + (particles is not None)
     figure, axes = grid(panels, 4 if panels == 4 else 3, (4.0, 3.4), title)
     colour = look("morris").colour
-    referred = {}
+    referred: dict[str, Line2D] = {}
     for ax, (name, profile) in zip(axes, comparisons.items(), strict=False):
         if len(profile.reference_at):
             order = np.argsort(profile.reference_at)
-            drawn = _TABLE if profile.table else _CURVE
-            ax.plot(profile.reference_at[order], profile.reference[order], **drawn)
-            referred[_reference(profile.reference_time, labels[0])] = Line2D([], [], **drawn)
+            style = _TABLE if profile.table else _CURVE
+            ax.plot(profile.reference_at[order], profile.reference[order], **style)
+            referred[_reference(profile.reference_time, labels[0])] = Line2D([], [], **style)
         ax.plot(profile.at, profile.values, "o", color=colour, markersize=3.5, markeredgewidth=0)
         ax.set(xlabel=profile.along, ylabel=name)
     times, values = (np.asarray(x, float) for x in history)
     last = axes[len(comparisons)]
     last.plot(times, values, color=colour)
     last.set(xlabel=labels[0], ylabel=labels[1])
+    if known is not None:
+        last.plot(*known, **_TABLE)
+        referred["measured"] = Line2D([], [], **_TABLE)
     if labels[1].endswith("error") and (values[np.isfinite(values)] > 0).all():
         last.set_yscale("log")
     if particles is not None:
         places, velocities, spacing = particles
         draw_particles(axes[-1], np.asarray(places, float), np.asarray(velocities, float), spacing)
-    if not comparisons:
+        if distance is not None:
+            draw_solid(axes[-1], distance)
+    if not referred and not comparisons:
         return figure
-    key(figure, referred | {"computed": Line2D([], [], color=INK, marker="o", linestyle="none")})
+    drawn: dict[str, Any] = {"color": INK, "marker": "o", "linestyle": "none"} if comparisons else {"color": colour}
+    key(figure, referred | {"computed": Line2D([], [], **drawn)})
     return figure
 
 
@@ -92,3 +103,13 @@ def draw_particles(ax: Axes, places: NDArray[np.float64], velocities: NDArray[np
         rasterized=len(places) > RASTERED,
     )
     ax.figure.colorbar(drawn, ax=ax)
+
+
+def draw_solid(ax: Axes, distance: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> None:
+    """What is solid within the axes, and a little around."""
+    ax.margins(0.02)
+    (left, right), (lower, upper) = ax.get_xlim(), ax.get_ylim()
+    x, y = np.meshgrid(np.linspace(left, right, FINE), np.linspace(lower, upper, FINE))
+    depth = -distance(np.column_stack((x.ravel(), y.ravel()))).reshape(x.shape)
+    if (depth > 0).any():
+        ax.contourf(x, y, depth, levels=[0.0, np.inf], colors=[SOLID], zorder=0)

@@ -18,6 +18,7 @@ Curve = tuple[ArrayLike, ArrayLike]
 
 INK = "#333333"
 FAINT = "#8c8c8c"
+SOLID = "#d9d9d9"
 FONT_SIZE = 9.0
 KEY_WIDTH = 1.7  # inches that an entry of the key takes
 

@@ -117,6 +117,8 @@ class Study:
         result = store(PAPER).get(run)
         if result is None:
             return False
+        if not {"time", "steps"} <= result.metrics.keys():  # damaged
+            return True
         return any(not _same(result.settings.get(key), value) for key, value in run.given.items())
 
 
@@ -154,9 +156,7 @@ def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     if settings.get("threads", 1) is None:
         settings = {**settings, "threads": 1}
     chosen_settings = FLOWS[case].settings(**settings)
-    folder = runs_folder(PAPER)
-    folder.mkdir(parents=True, exist_ok=True)
-    saved = folder / f"{Run(case, chosen_settings).key}.npz"
+    saved = runs_folder(PAPER) / f"{Run(case, chosen_settings).key}.npz"
     run = FlowRun(FLOWS[case], chosen_settings)
     if saved.exists():
         try:
