@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from sphear.sweeps import Run, SweepProgress, SweepResult
 
 LOST = 1  # exit status
+FOUND = ("error", "mean_deviation", "front_deviation")  # ends of the names of what a table has of a run
 
 
 def sweep(
@@ -88,18 +89,18 @@ def _values(runs: Sequence[Run], key: str) -> list[Any]:
 
 
 def _table(runs: Sequence[Run], results: Sequence[SweepResult], keys: Sequence[str]) -> Table:
-    """The settings that change, and how each run ended."""
+    """The settings that change, how each run ended, and how far it is from what is known."""
     from sphear.cases.flow import FLOWS
     from sphear.results import Column, Table
 
     case = FLOWS[runs[0].case]
-    metrics = next((result.metrics for result in results if not result.lost), {})
-    error = next((name for name in metrics if name.endswith("error")), None)
+    metrics = dict.fromkeys(name for result in results for name in result.metrics)
+    found = [name for name in metrics if name == case.headline or name.endswith(FOUND)]
     columns = [
         *(Column(key, key.replace("_", " "), "g" if _all_numbers(_values(runs, key)) else "") for key in keys),
         Column("end", "end"),
         Column("time", case.time_name, ".4g"),
-        *([] if error is None else [Column(error, error.replace("_", " "), ".4g")]),
+        *(Column(name, name.replace("_", " "), ".4g") for name in found),
     ]
     rows = [
         {**{key: run.given[key] for key in keys}, **result.metrics, "end": result.end}

@@ -11,6 +11,8 @@ from sphear.boundaries.shapes.rows import behind
 from sphear.errors import SphearError
 from sphear.neighbours.domain import Domain
 
+FASTEST = 1e100  # beyond, squares overflow
+
 
 @dataclass(frozen=True)
 class Circle(Primitive):
@@ -22,7 +24,7 @@ class Circle(Primitive):
         spin: angular velocity of the wall about its centre, anticlockwise, in radians a time.
 
     Raises:
-        SphearError: there is no such circle.
+        SphearError: there is no such circle, or its wall is too fast.
     """
 
     centre: Vector
@@ -35,6 +37,10 @@ class Circle(Primitive):
         object.__setattr__(self, "spin", number("the spin of a circle", self.spin))
         if self.radius <= 0:
             raise SphearError(f"the radius of a circle is positive, not {self.radius:g}")
+        if abs(self.spin * self.radius) > FASTEST:
+            raise SphearError(
+                f"the wall of the {self} turns too fast to be computed with, with a spin of {self.spin:g}"
+            )
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:
