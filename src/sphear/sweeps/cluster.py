@@ -34,7 +34,8 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
         SphearError: Dask is not installed, or the scheduler does not answer.
     """
     distributed = _distributed()
-    if not ADDRESS.fullmatch(address.strip()):
+    address = address.strip()
+    if not ADDRESS.fullmatch(address):
         raise SphearError(f"the scheduler {address} does not answer: an address is written as tcp://host:8786")
     log = logging.getLogger("distributed.client")
     level = log.level

@@ -157,7 +157,7 @@ class IncompressibleFlow:
         return self.discretisation.viscous.implicit(share, self.time_step, self.u, force, sums.viscous)
 
     def _step(self) -> None:
-        step, u = self.time_step, self.u
+        step, u = self.time_step, self.u.copy()  # before dry walls velocities change
         moved = MOVED_BEFORE[self.settings.projection] * step
         x, distance = self.x, self._distance
         if moved:
