@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow.dam_break import standing
 from sphear.errors import SphearError
 from sphear.schemes.presets import preset_settings
 
@@ -177,6 +178,8 @@ REFUSED: dict[str, tuple[str, dict[str, Any], str]] = {
     "periodic": ("taylor-green", {"resolution": 3}, "the resolution of 3 is too coarse: the kernel's support of 1.046"),
     "slow": ("poiseuille", {"reynolds": 1e-200}, "the setting reynolds should be from 1e-100 to 1e+100, not 1e-200"),
     "column": ("dam-break", {"column": 0.2}, "a column of dam-break is at least 4 particles wide and high"),
+    "half a particle": ("dam-break", {"column": 1.99}, "and column=1.99 with resolution=6 is 11.94"),
+    "mountain": ("dam-break", {"column": 1e300}, "the setting column should be less than or equal to 100"),
     "tank": ("dam-break", {"tank": 1.2}, "the setting tank should be greater than or equal to 1.5"),
     "no lattice": ("dam-break", {"initial": "relaxed"}, "starts from initial=lattice, not from initial=relaxed"),
     "unknown": ("cavity", {"viscositi": "oger"}, "there is no setting named 'viscositi': did you mean viscosity"),
@@ -218,3 +221,21 @@ def test_a_mistake_is_refused_before_the_first_step(mistake: str) -> None:
 def test_other_starts_in_a_box(name: str, neumann: str) -> None:
     run = start("cavity", initial=name, neumann=neumann, max_steps=3, until=None).run()
     assert (run.end, run.history[-1]["smallest_distance"] > 0.5) == ("steps", True)
+
+
+def test_a_cylinder_may_fill_the_line_that_profiles_are_of() -> None:
+    run = start("cavity-cylinder", resolution=212, diameter=0.97, max_steps=1).run()
+    assert "u_min" not in run.as_dict()["metrics"]
+
+
+def test_a_package_that_is_missing_is_said_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sphear.pressure.AlgebraicMultigrid.installed", staticmethod(lambda: False))
+    with pytest.raises(SphearError, match="the preconditioner amg needs pyamg"):
+        start("cavity", preconditioner="amg")
+
+
+def test_the_height_is_that_of_the_fluid_that_stands_on_the_floor() -> None:
+    heights = np.array([0.05, 0.14, 0.26, 0.35, 0.62, 0.7])
+    assert standing(heights, 0.1) == 0.35
+    assert standing(heights[4:], 0.1) == pytest.approx(-0.05)
+    assert standing(np.empty(0), 0.1) == pytest.approx(-0.05)

@@ -90,3 +90,18 @@ def test_a_channel_around_a_solid_ends_when_the_channel_does() -> None:
     assert run.case.ended(run.settings, run.flow, {}) is None
     run.flow.time = 40.0 * run.unit
     assert run.case.ended(run.settings, run.flow, {}) == "time"
+
+
+@pytest.mark.parametrize(
+    ("name", "solid"),
+    [
+        ("cavity", "Circle((5, 5), 0.2)"),
+        ("cavity", "Circle((1.3, 0.5), 0.2)"),
+        ("cavity", "Circle((0.7, 0.7), 0.15) & Circle((0.2, 0.2), 0.15)"),
+        ("poiseuille", "Circle((0.5, 3), 0.2)"),
+        ("taylor-green", "Circle((0.2, 0.2), 0.1) & Circle((0.7, 0.7), 0.1)"),
+    ],
+)
+def test_a_solid_that_is_nowhere_in_the_fluid_is_refused(name: str, solid: str) -> None:
+    with pytest.raises(SphearError, match="is nowhere in the fluid"):
+        start(name, solid=solid)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sphear.boundaries import Box
-from sphear.boundaries.shapes import Circle, Shape, fluid_lattice
+from sphear.boundaries.shapes import Circle, Polygon, Shape, fluid_lattice
 from sphear.neighbours import Domain
 from sphear.schemes.incompressible.flow import IncompressibleFlow
 from sphear.schemes.incompressible.settings import IncompressibleSettings
@@ -55,4 +55,21 @@ def test_pressure_holds_the_fluid_on_its_circles() -> None:
 def test_walls_have_the_acceleration_that_turns_them() -> None:
     walls = flow(RING, 24).discretisation.walls
     assert walls is not None
-    np.testing.assert_allclose(walls.accelerations, -(SPIN**2) * (walls.feet - CENTRE), atol=1e-6)
+    np.testing.assert_allclose(walls.accelerations, -(SPIN**2) * (walls.feet - CENTRE), atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [24, 60])
+def test_straight_walls_that_slide_have_no_acceleration_where_they_meet_either(count: int) -> None:
+    """A drum of sliding belts, with 60 of which the feet of wall particles are on its corners."""
+    angles = 2.0 * np.pi * np.arange(count) / count
+    corners = np.array(CENTRE) + 0.47 * np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    along = np.roll(corners, -1, axis=0) - corners
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    belts = {k: (float(u), float(v)) for k, (u, v) in enumerate(SPIN * 0.47 * along)}
+    done = flow(Polygon([(float(x), float(y)) for x, y in corners], belts), 32)
+    walls = done.discretisation.walls
+    assert walls is not None
+    assert not walls.accelerations.any()
+    done.advance(10)
+    exact = turning(done.positions)
+    assert np.linalg.norm(done.velocities - exact) < 0.03 * np.linalg.norm(exact)

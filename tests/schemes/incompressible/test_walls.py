@@ -146,12 +146,13 @@ def test_particles_on_the_walls_of_a_polygon() -> None:
     assert np.isfinite(flow.pressures.on_walls).all()
 
 
+@pytest.mark.parametrize("radius", [0.2, 0.23])
 @pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
-def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(neumann: str) -> None:
+def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(neumann: str, radius: float) -> None:
     """A row of them in a channel: moved by whole spacings, all is moved, and nothing else changes."""
 
     def flow(x: float) -> IncompressibleFlow:
-        shape = Rectangle((-math.inf, 0.0), (math.inf, 1.0)) - Circle((x, 0.5), 0.2)
+        shape = Rectangle((-math.inf, 0.0), (math.inf, 1.0)) - Circle((x, 0.5), radius)
         box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"))
         chosen = IncompressibleSettings.model_validate(
             {"neumann": neumann, "viscosity": "oger", "alpha": 0.05, "resolution": 24, "tolerance": 1e-11}
@@ -194,3 +195,26 @@ def test_left_is_as_good_as_right_and_up(neumann: str) -> None:
         other.advance(12)
         np.testing.assert_allclose(other.velocities, image(found.velocities), rtol=0, atol=1e-9)
         np.testing.assert_allclose(other.pressure, found.pressure, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
+@pytest.mark.parametrize(
+    "corners",
+    [
+        ((0.05, 0.1), (0.95, 0.1), (0.05, 0.9)),  # several wall particles have one foot in the corners
+        ((0.8395474248078525, 0.7683558875961131), (0.4536828615371135, 0.2727562564271032), (0.80015714, 0.40764246)),
+    ],
+    ids=["right", "sharp"],
+)
+def test_fluid_rests_in_sharp_corners(corners: tuple[tuple[float, float], ...], neumann: str) -> None:
+    shape = Polygon(corners)
+    at = fluid_lattice(shape, 1 / 24, UNIT)
+    flow = in_a_tank(24, shape=shape, at=at, viscosity="morris", neumann=neumann)
+    flow.advance(5)
+    fallen = 5 * flow.time_step
+    assert np.abs(flow.velocities).max() < (0.8 if neumann == "natural" else 0.3) * fallen
+
+
+def test_a_shape_that_goes_on_beyond_a_wall_of_the_box_is_refused() -> None:
+    with pytest.raises(SphearError, match="goes on beyond the wall of the box at x = 0: cut it there"):
+        in_a_tank(24, shape=~Circle((0.5, 0.5), 0.2))

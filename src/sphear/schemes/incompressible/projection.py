@@ -143,8 +143,12 @@ class PressureRows:
         assert self.walls is not None
         count, on = places.count, self.on_wall
         fluid = places.positions[:count]
-        derivative = self.walls.normal_derivatives(fluid, column[: count + on], count + on) / self.spacing
+        derivative = csr_array(self.walls.normal_derivatives(fluid, column[: count + on], count + on) / self.spacing)
         total: Array = np.asarray(derivative.sum(axis=1)).ravel()
+        if (wrong := total <= 0.0).any():  # in a narrow corner the plane may be no plane: a mean will do
+            listed = np.repeat(wrong, np.diff(derivative.indptr))
+            derivative.data[listed] = np.abs(derivative.data[listed])
+            total = np.asarray(derivative.sum(axis=1)).ravel()
         own = csr_array((-total, np.arange(count, count + on), np.arange(on + 1)), shape=(on, count + on))
         whole = vstack((matrix, derivative + own), format="csr")
         return csr_array(whole), np.concatenate((positions, self.walls.dummies.positions[:on]))
