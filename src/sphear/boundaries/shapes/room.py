@@ -62,7 +62,7 @@ def check_room(shape: Shape, spacing: float, depth: float, box: Domain, support:
         width, place = gap
         raise SphearError(
             f"the fluid between the walls at {text(place)} is {width:.3g} wide, narrower than the support of the"
-            f" kernel, {support:.3g}: a finer spacing or a wider gap is needed"
+            f" kernel, {support:.3g}: a finer spacing, a wider gap or none at all is needed"
         )
 
 
