@@ -144,17 +144,17 @@ class IncompressibleFlow:
             self._step()
         self.restore(state)
 
-    def _predicted(self, sums: Sums, time: float) -> Array:
-        """(N, d), the acceleration by viscosity and forces, over the step."""
+    def _predicted(self, sums: Sums, u: Array, time: float) -> Array:
+        """(N, d), the acceleration of velocities u (N, d) by viscosity and forces, over the step."""
         problem = self.problem
         force = np.array(problem.body_force)
         if problem.force is not None:
             force = force + problem.force(sums.places.positions[: self.count], time)
         share = IMPLICIT_SHARE[self.settings.viscous_step]
         if not share:
-            acceleration: Array = sums.viscous(self.u) + force
+            acceleration: Array = sums.viscous(u) + force
             return acceleration
-        return self.discretisation.viscous.implicit(share, self.time_step, self.u, force, sums.viscous)
+        return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
 
     def _step(self) -> None:
         step, u = self.time_step, self.u.copy()  # before dry walls velocities change
@@ -165,7 +165,7 @@ class IncompressibleFlow:
             self.guard.check_speed(self.time, self.x, u)
             distance = self.guard.put_back(self.time, x, u)
         sums = self.discretisation.at(x, distance)
-        acceleration = self._predicted(sums, self.time + moved)
+        acceleration = self._predicted(sums, u, self.time + moved)
         predicted = u + step * acceleration
         if self.settings.projection == "intermediate":
             self.guard.check_speed(self.time, x, predicted)
