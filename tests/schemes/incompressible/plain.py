@@ -166,9 +166,7 @@ class Plain:
         return np.asarray(np.min(gaps, axis=0))
 
     def slipping(self, x: Array, u: Array) -> Array:
-        """Velocities as the divergence sees them."""
-        if not self.settings.slip:
-            return self.continued(x, u)
+        """Velocities that slip along walls."""
         behind = self.mirrored(x) @ u
         for k, (normal, velocity) in enumerate(zip(self.wall.normals, self.wall.velocities, strict=True)):
             behind[k] -= (1.0 if k < self.on else 2.0) * np.dot(behind[k] - velocity, normal) * normal
@@ -273,7 +271,8 @@ class Plain:
         x = self.x + dt * predicted if settings.projection == "intermediate" else self.x
         pairs = self.around(x)
         even = np.concatenate((acceleration, self.mirrored(x) @ acceleration)) if walled else acceleration
-        around = (self.slipping(x, u) if walled else u) + dt * even
+        seen = self.slipping if self.settings.slip else self.continued  # by the divergence
+        around = (seen(x, u) if walled else u) + dt * even
         slopes = self.differences(pairs, around)
         divergence = np.einsum("ikk->i", slopes)
         if midpoint:  # of the velocities where particles are half a step later

@@ -187,3 +187,11 @@ def test_pressure_of_vortices() -> None:
     exact = np.asarray(TaylorGreen(0.01).pressure(flow.pressure_positions, flow.pressure_time))
     error = flow.pressure - flow.pressure.mean() - exact + exact.mean()
     assert np.linalg.norm(error) < 0.08 * np.linalg.norm(exact)
+
+
+@pytest.mark.parametrize("neumann", ["mirror_points", "sfdi"])
+def test_shifted_particles_stay_apart_where_the_divergence_sees_no_slip_too(neumann: str) -> None:
+    """They ran away where velocities followed shifts by the slope of continued ones, which a lid steepens."""
+    run = case("cavity", resolution=20, reynolds=1000.0, until=2.0, slip=False, neumann=neumann).run()
+    assert run.end == "time"
+    assert min(row["smallest_distance"] for row in run.history) > 0.5

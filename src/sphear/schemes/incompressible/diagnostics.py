@@ -23,7 +23,7 @@ def diagnostics(flow: IncompressibleFlow) -> dict[str, float]:
     """
     problem, dx = flow.problem, flow.problem.spacing
     sums = flow.discretisation.at(flow.x)
-    divergence = sums.divergence(sums.slipping(flow.u))
+    divergence = sums.divergence(sums.divergent(flow.u))
     tree = cKDTree(_with_images(flow))
     domain = flow.discretisation.domain
     nearest = np.asarray(tree.query(flow.x if domain is None else domain.wrapped(flow.x), k=2)[0])[:, 1]

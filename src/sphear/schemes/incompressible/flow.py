@@ -172,7 +172,7 @@ class IncompressibleFlow:
             sums = self.discretisation.at(x + step * predicted)
         self.pressure_positions = sums.places.positions[: self.count]
         even = sums.even(acceleration)
-        before = sums.slipping(u, -moved) + step * even
+        before = sums.divergent(u, -moved) + step * even
         pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
         after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
         x = x + (0.5 * step - moved) * u + 0.5 * step * after

@@ -158,12 +158,14 @@ class Sums:
         walls = self.how.walls
         return u if walls is None or self.rows is None else walls.continued(self.rows, u)
 
-    def slipping(self, u: Array, since: float = 0.0) -> Array:
+    def divergent(self, u: Array, since: float = 0.0) -> Array:
         """(N + W, d), velocities as the divergence sees them, of particles that were here a time `since` before."""
+        return self.slipping(u, since) if self.how.slip else self.continued(u)
+
+    def slipping(self, u: Array, since: float = 0.0) -> Array:
+        """(N + W, d), velocities that slip along walls, of particles that were here a time `since` before."""
         walls = self.how.walls
-        if walls is None or self.rows is None or not self.how.slip:
-            return self.continued(u)
-        return walls.slipping(self.rows, u, since)
+        return u if walls is None or self.rows is None else walls.slipping(self.rows, u, since)
 
     def ways(self) -> Array:
         """(W, d), from wall particles to where the pressures that are continued to them are from."""
