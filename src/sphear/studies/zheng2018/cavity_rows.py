@@ -80,7 +80,8 @@ def row_of(each: Wanted, result: SweepResult) -> Row:
     fields = ("field_", "particles_")
     lines = {name: values for name, values in result.profiles.items() if not name.startswith(fields)}
     row["profiles"] = {name: [_short(x) for x in values] for name, values in lines.items()}
-    row |= {name: values for name, values in result.profiles.items() if name.startswith(fields)}
+    if each.preset == "modern" and each.reynolds == REYNOLDS:  # others are not drawn
+        row |= {name: values for name, values in result.profiles.items() if name.startswith(fields)}
     return row | scores(each.case, row)
 
 
