@@ -56,6 +56,11 @@ class Box:
                 raise SphearError(f"the velocity of a wall has {dimension} components, not {len(velocity)}")
 
     @property
+    def periodic(self) -> tuple[bool, ...]:
+        """Whether the box repeats, along each axis."""
+        return tuple(side == "periodic" for side in self.sides)
+
+    @property
     def wall_axes(self) -> tuple[int, ...]:
         """The axes that end at walls."""
         return tuple(axis for axis, side in enumerate(self.sides) if side == "walls")

@@ -134,6 +134,13 @@ def check_start(problem: Problem) -> None:
             raise SphearError(f"the initial {what} of particle {wrong[0]} is not a number: {values[wrong[0]]}")
 
 
+def check_state(state: Mapping[str, Array], own: Mapping[str, Array]) -> None:
+    """Refuse a saved state that lacks an array of a flow's own, or has it for other particles."""
+    for name, values in own.items():
+        if name not in state or np.shape(state[name]) != values.shape:
+            raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
+
+
 def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
     """Refuse a kernel that reaches no neighbour, or further than a period."""
     if kernel.radius <= problem.spacing:

@@ -16,7 +16,7 @@ from sphear.equations_of_state import IdealGas
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
@@ -209,9 +209,7 @@ class Flow:
             SphearError: it is that of another flow.
         """
         own = self._arrays()
-        for name, values in own.items():
-            if name not in state or np.shape(state[name]) != values.shape:
-                raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
+        check_state(state, own)
         for name, values in own.items():
             if name not in ("clock", "fresh"):
                 values[...] = state[name]

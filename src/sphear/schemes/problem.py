@@ -78,7 +78,7 @@ class Problem:
     @property
     def periodic(self) -> tuple[bool, ...]:
         """Whether the flow repeats, along each axis."""
-        return tuple(side == "periodic" for side in self.box.sides)
+        return self.box.periodic
 
     @property
     def window(self) -> Domain:

@@ -17,17 +17,17 @@ Array = np.ndarray[Any, Any]
 Lines = dict[str, tuple[Array, Array]]  # stations and values by name
 
 SIDE, LID_SPEED, DENSITY = 1.0, 1.0, 1.0
+BOX = Box((0.0, 0.0), (SIDE, SIDE), ("walls", "walls"), upper_velocity=(LID_SPEED, 0.0))
 STATIONS = np.linspace(0.0, 1.0, 66)[1:-1]  # where the centreline profiles are compared, the walls left out
 
 
 def problem(settings: Settings) -> Problem:
     """A square of particles at rest between four walls, of which the upper one slides."""
-    box = Box((0.0, 0.0), (SIDE, SIDE), ("walls", "walls"), upper_velocity=(LID_SPEED, 0.0))
-    positions, spacing = particles_between(box, settings)
+    positions, spacing = particles_between(BOX, settings)
     return Problem(
         positions=positions,
         velocities=np.zeros_like(positions),
-        box=box,
+        box=BOX,
         body_force=(0.0, 0.0),
         spacing=spacing,
         density=DENSITY,

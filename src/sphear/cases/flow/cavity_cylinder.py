@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from pydantic import Field
 
-from sphear.boundaries import Box
 from sphear.boundaries.shapes import Circle, Rectangle
 from sphear.cases.flow import cavity
 from sphear.cases.flow.base import Comparison, FlowInTime, Settings
-from sphear.cases.flow.cavity import DENSITY, LID_SPEED, SIDE
+from sphear.cases.flow.cavity import LID_SPEED, SIDE
 from sphear.cases.flow.initial import particles_in
 from sphear.errors import SphearError
 from sphear.references import cavity as references
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
 
-Array = np.ndarray[Any, Any]
-
-REFERENCE_REYNOLDS, REFERENCE_TIME = 1000.0, 40.0
+REFERENCE_REYNOLDS = 1000.0
 
 
 class CylinderSettings(IncompressibleSettings):
@@ -56,19 +52,13 @@ def problem(settings: Settings) -> Problem:
             f" {0.5 * settings.diameter:g} or more from the walls, and centre_x={settings.centre_x:g},"
             f" centre_y={settings.centre_y:g} is {nearest:g} from one"
         )
-    box = Box((0.0, 0.0), (SIDE, SIDE), ("walls", "walls"), upper_velocity=(LID_SPEED, 0.0))
     shape = Rectangle((0.0, 0.0), (SIDE, SIDE), velocities={"upper": (LID_SPEED, 0.0)}) - cylinder(settings)
-    positions, spacing = particles_in(shape, box, settings)
-    return Problem(
+    positions, _ = particles_in(shape, cavity.BOX, settings)
+    return replace(
+        cavity.problem(settings),
         positions=positions,
         velocities=np.zeros_like(positions),
-        box=box,
-        body_force=(0.0, 0.0),
-        spacing=spacing,
-        density=DENSITY,
-        kinematic_viscosity=LID_SPEED * SIDE / settings.reynolds,
         speed=max(LID_SPEED, abs(settings.spin) * 0.5 * settings.diameter),
-        length=SIDE,
         shape=shape,
     )
 

@@ -57,7 +57,7 @@ def particles_in(shape: Shape, box: Box, settings: Settings) -> tuple[Array, flo
     if settings.initial != "lattice":
         raise SphearError(f"particles around shapes start from initial=lattice, not from initial={settings.initial}")
     spacing = (box.upper[-1] - box.lower[-1]) / settings.resolution
-    window = Domain(box.lower, box.upper, tuple(side == "periodic" for side in box.sides))
+    window = Domain(box.lower, box.upper, box.periodic)
     return fluid_lattice(shape, spacing, window), spacing
 
 

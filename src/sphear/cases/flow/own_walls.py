@@ -9,7 +9,7 @@ import numpy as np
 from sphear.boundaries.shapes import Shape, fastest, fitted, fluid_lattice, repeated, written
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings, kinetic_energy
 from sphear.errors import SphearError
-from sphear.schemes.incompressible.region import between_walls
+from sphear.schemes.incompressible.region import fluid_of
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
 
@@ -54,7 +54,7 @@ def around(problem: Problem, solid: Shape) -> Problem:
     Raises:
         SphearError: the solid cannot repeat as the box does, is not where fluid can be, or leaves no particle.
     """
-    fluid = problem.shape if problem.shape is not None else between_walls(problem.box)
+    fluid = fluid_of(problem)
     shape = ~solid if fluid is None else fluid & ~solid  # which may stand on a wall
     window = problem.window
     if not _touched(problem, fluid, repeated(solid, window)):

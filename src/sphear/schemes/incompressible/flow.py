@@ -13,7 +13,7 @@ from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
 from sphear.operators import arguments
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
@@ -238,9 +238,7 @@ class IncompressibleFlow:
         Raises:
             SphearError: it is that of another flow.
         """
-        for name, values in self._arrays().items():
-            if name not in state or np.shape(state[name]) != values.shape:
-                raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
+        check_state(state, self._arrays())
         self.x, self.u = np.array(state["x"]), np.array(state["v"])
         self.pressure_positions = np.array(state["pressure_x"])
         self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])

@@ -61,7 +61,7 @@ class PressureRows:
         self.moments = LaplacianMoments(term, kernel, NoCorrection())
         self.preparation = term.preparation(kernel, NoCorrection())
         self.walls, self.neumann, self.box, self.spacing = walls, neumann, box, spacing
-        self.periodic = tuple(side == "periodic" for side in box.sides)
+        self.periodic = box.periodic
         pairwise = self.preparation is None
         self.symmetric = pairwise and (walls is None or neumann == "natural")
         self.on_wall = walls.on_wall if walls is not None and neumann == "sfdi" else 0

@@ -53,6 +53,11 @@ def _check_box(whole: Shape, problem: Problem) -> None:
                 )
 
 
+def fluid_of(problem: Problem) -> Shape | None:
+    """The fluid in one period: the problem's own shape, or that between the walls of its box; None without walls."""
+    return problem.shape if problem.shape is not None else between_walls(problem.box)
+
+
 def between_walls(box: Box) -> Shape | None:
     """The region between the walls of a box; None where all its sides are periodic.
 
@@ -65,9 +70,8 @@ def between_walls(box: Box) -> Shape | None:
         raise SphearError(f"walls of incompressible flows are in two dimensions, not in {len(box.lower)}")
     names = {(0, 0): "left", (0, 1): "right", (1, 0): "lower", (1, 1): "upper"}
     moving = {(box.wall_axes[-1], 0): box.lower_velocity, (box.wall_axes[-1], 1): box.upper_velocity}
-    endless = [side == "periodic" for side in box.sides]
     (left, lower), (right, upper) = (
-        tuple(sign * math.inf if free else x for x, free in zip(corner, endless, strict=True))
+        tuple(sign * math.inf if free else x for x, free in zip(corner, box.periodic, strict=True))
         for sign, corner in ((-1.0, box.lower), (1.0, box.upper))
     )
     velocities = {
@@ -88,7 +92,7 @@ def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel,
     Raises:
         SphearError: there is no room for the fluid.
     """
-    shape = problem.shape if problem.shape is not None else between_walls(problem.box)
+    shape = fluid_of(problem)
     if shape is None:
         return None
     window, dx = problem.window, problem.spacing
