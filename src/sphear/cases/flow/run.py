@@ -15,6 +15,7 @@ from sphear.cases.flow.saved import About, read, write
 from sphear.errors import SphearError
 from sphear.schemes.base import FlowFailure, flow_in_time
 from sphear.schemes.named import named
+from sphear.schemes.watch import Watch
 
 OUTPUTS = 200  # of a run to its planned end
 SAVED_EVERY = 60.0  # seconds
@@ -40,7 +41,9 @@ class FlowRun:
     def __init__(self, case: FlowCase, settings: Settings) -> None:
         settings = named(settings)
         self.case, self.settings = opened(case, settings), settings
-        self.flow = flow_in_time(self.case.problem(settings), settings)
+        problem = self.case.problem(settings)
+        self.flow = flow_in_time(problem, settings)
+        self.watch = Watch(problem)
         self.unit = case.time_unit(settings)
         self.history: list[dict[str, float]] = []
         self.end = ""
@@ -102,7 +105,13 @@ class FlowRun:
         with np.errstate(all="ignore"):  # also of a flow that broke down
             metrics = {**self.case.metrics(self.settings, self.flow), **self.flow.metrics()}
         self.history.append({"time": self.flow.time / self.unit, "steps": self.flow.steps, **metrics})
-        self.end = self.end or self._verdict(metrics, until)
+        self.end = self.end or self._implausible() or self._verdict(metrics, until)
+
+    def _implausible(self) -> str:
+        found = self.watch.found(self.flow)
+        if found is None:
+            return ""
+        return f"failed: the flow failed by t = {self.flow.time:g}: {found}, as when particles do not resolve it"
 
     def _verdict(self, metrics: dict[str, float], until: float) -> str:
         """How the run has ended, where it stands; empty if it goes on."""

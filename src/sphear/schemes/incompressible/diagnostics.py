@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 def diagnostics(flow: IncompressibleFlow) -> dict[str, float]:
     """The state of the particles and of the last projection.
 
+    - energy_residual, energy_created: of the energy budget, see `sphear.schemes.energy`.
     - pressure_iterations, pressure_residual: of the last solve.
     - divergence: the mean of |div u|, times length over speed.
     - density_deviation: the root mean square of the number density over that of a lattice, minus 1.
@@ -28,6 +29,8 @@ def diagnostics(flow: IncompressibleFlow) -> dict[str, float]:
     domain = flow.discretisation.domain
     nearest = np.asarray(tree.query(flow.x if domain is None else domain.wrapped(flow.x), k=2)[0])[:, 1]
     return {
+        "energy_residual": flow.energy_budget.residual(flow.u),
+        "energy_created": flow.energy_budget.created(flow.u),
         "pressure_iterations": float(flow.pressures.iterations),
         "pressure_residual": float(flow.pressures.residual),
         "divergence": float(np.abs(divergence).mean() * problem.length / problem.speed),

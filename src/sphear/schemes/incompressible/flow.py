@@ -14,12 +14,13 @@ from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.energy import EnergyBudget
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
 from sphear.schemes.incompressible.pressures import Pressures
 from sphear.schemes.incompressible.settings import IncompressibleSettings
-from sphear.schemes.incompressible.shifting import drift
+from sphear.schemes.incompressible.shifting import LEAST_STRETCHING, drift, stretching, unevenness
 from sphear.schemes.incompressible.sums import Discretisation, Sums
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
 from sphear.schemes.problem import Problem
@@ -79,8 +80,10 @@ class IncompressibleFlow:
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
+        self.uneven = unevenness(self.count, problem.positions.shape[1], problem.spacing, settings.seed)
         self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
+        self.energy_budget = EnergyBudget(problem.density * problem.spacing ** self.x.shape[1], self.u, problem.speed)
         self.pressure_positions = self.x
         self._distance: Array | None = None  # of the particles from walls, where it is known already
 
@@ -144,12 +147,14 @@ class IncompressibleFlow:
             self._step()
         self.restore(state)
 
-    def _predicted(self, sums: Sums, u: Array, time: float) -> Array:
-        """(N, d), the acceleration of velocities u (N, d) by viscosity and forces, over the step."""
+    def _force(self, sums: Sums, time: float) -> Array:
+        """(d,) or (N, d), the acceleration by forces at a time."""
         problem = self.problem
         force = np.array(problem.body_force)
-        if problem.force is not None:
-            force = force + problem.force(sums.places.positions[: self.count], time)
+        return force if problem.force is None else force + problem.force(sums.places.positions[: self.count], time)
+
+    def _predicted(self, sums: Sums, u: Array, force: Array) -> Array:
+        """(N, d), the acceleration of velocities u (N, d) by viscosity and a force, over the step."""
         share = IMPLICIT_SHARE[self.settings.viscous_step]
         if not share:
             acceleration: Array = sums.viscous(u) + force
@@ -165,7 +170,8 @@ class IncompressibleFlow:
             self.guard.check_speed(self.time, self.x, u)
             distance = self.guard.put_back(self.time, x, u)
         sums = self.discretisation.at(x, distance)
-        acceleration = self._predicted(sums, u, self.time + moved)
+        force = self._force(sums, self.time + moved)
+        acceleration = self._predicted(sums, u, force)
         predicted = u + step * acceleration
         if self.settings.projection == "intermediate":
             self.guard.check_speed(self.time, x, predicted)
@@ -177,15 +183,17 @@ class IncompressibleFlow:
         after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
         x = x + (0.5 * step - moved) * u + 0.5 * step * after
         if self.drift is not None:
-            shift = step * sums.places.sum(self.drift)
-            shift = shift if sums.surface is None else along_surface(shift, sums.surface)
             # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
             slopes = sums.slopes(sums.slipping(after, moved)).reshape(self.count, *[u.shape[1]] * 2)
+            stretched = stretching(slopes, LEAST_STRETCHING * self.problem.speed / self.problem.spacing)
+            shift = step * (sums.places.sum(self.drift) + stretched[:, None] * self.uneven)
+            shift = shift if sums.surface is None else along_surface(shift, sums.surface)
             after = after + np.einsum("nab,nb->na", slopes, shift)
             x = x + shift
         if not np.isfinite(after + x).all():
             self.guard.check_speed(self.time, self.x, after)  # before the state is no number
         self.x, self.u = x, after
+        self.energy_budget.add(step, u, after, acceleration - force, force)
         self.time += step
         self.steps += 1
         self.guard.check_speed(self.time, self.x, self.u)
@@ -230,6 +238,7 @@ class IncompressibleFlow:
             "pressure": self.pressures.fluid,
             "wall_pressure": self.pressures.on_walls,
             "pressure_x": self.pressure_positions,
+            "energy": self.energy_budget.state(),
         }
 
     def restore(self, state: dict[str, Array]) -> None:
@@ -242,4 +251,5 @@ class IncompressibleFlow:
         self.x, self.u = np.array(state["x"]), np.array(state["v"])
         self.pressure_positions = np.array(state["pressure_x"])
         self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])
+        self.energy_budget.restore(state["energy"])
         self.time, self.steps, self._distance = float(state["clock"][0]), int(state["clock"][1]), None

@@ -5,11 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from sphear.algebra import Scalar, Vector, dot, scale, sqrt, where_less
 from sphear.interactions import Part, Rates, Shifting
 from sphear.kernels import Kernel
 
+Array = np.ndarray[Any, Any]
+
 XU_STRENGTH = 0.04  # C of the source, which takes 0.01 to 0.1
+UNEVENNESS = 0.02  # spacings, by which particles leave a line while it is stretched e-fold
+LEAST_STRETCHING = 1e-6  # of the expected speed over a spacing: parallel flow stretches by rounding only
 
 
 @dataclass(frozen=True)
@@ -62,3 +68,31 @@ def drift(shifting: str, kernel: Kernel, strength: float, speed: float, spacing:
     if shifting == "xu":
         return Rates((XuShifting(kernel, XU_STRENGTH * strength, speed),))
     return Rates((Shifting(kernel, strength, speed, spacing),))
+
+
+def unevenness(count: int, dimension: int, spacing: float, seed: int) -> Array:
+    """(count, d), where each particle is moved while the flow stretches its neighbourhood e-fold: a random vector.
+
+    A line of particles that a flow stretches, as that through a stagnation point from a lattice, is symmetric: its
+    concentration has no gradient, shifting leaves it as it is, and gaps grow until gradients break down. The least
+    unevenness is enough for shifting to bring particles into the gaps from both sides.
+
+    Args:
+        count: of the particles.
+        dimension: d.
+        spacing: of the particles.
+        seed: of the random vectors.
+    """
+    vectors: Array = np.random.default_rng(seed).uniform(-1.0, 1.0, (count, dimension))
+    return UNEVENNESS * spacing * vectors
+
+
+def stretching(slopes: Array, least: float) -> Array:
+    """(N,), the rate at which a flow stretches its lines, sqrt(tr(G^2) / 2) of slopes G (N, d, d); 0 below `least`.
+
+    It is that of strain without what turns with the fluid (Okubo 1970, Weiss 1991): zero in parallel flow, which
+    only shears lines, and in rotation.
+    """
+    squared = 0.5 * np.einsum("nab,nba->n", slopes, slopes)
+    rate: Array = np.where(squared > least**2, np.sqrt(np.maximum(squared, 0.0)), 0.0)
+    return rate

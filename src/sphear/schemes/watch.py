@@ -1,0 +1,122 @@
+"""What no fluid does: energy that nobody gave, speeds that nothing drives; and flows that the particles do not resolve."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from sphear.boundaries.shapes.fastest import fastest
+from sphear.schemes.base import FlowInTime
+from sphear.schemes.energy import EnergyBudget
+from sphear.schemes.problem import Problem
+
+Array = np.ndarray[Any, Any]
+
+GROWTH = 0.01  # of the energy at the start, or turned over so far, by which that of an undriven flow may grow
+CREATED = 0.1  # of the energy that was there and turned over, which the discretisation may make
+OVERTAKEN = 1.25  # times the fastest wall or the fastest particle at the start, up to which fluid may be
+THIN_LAYER = 2.0  # spacings: layers at walls of thickness L / sqrt(Re) are not resolved below
+LARGE_CELL = 100.0  # U dx / nu, from which on particles dissipate more than viscosity does
+LOST = 0.05  # of the energy that was there and turned over, from which on a loss to the discretisation is told
+NOTHING = 1e-3  # of the expected speed or energy
+
+
+class Watch:
+    """Watches a flow for what no fluid does.
+
+    Args:
+        problem: of the flow, with its particles at the start.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.mass = problem.density * problem.spacing ** problem.positions.shape[1]
+        self.force = np.array(problem.body_force, np.float64)
+        self.driven = bool(self.force.any()) or problem.force is not None
+        self.varied = problem.force is not None
+        self.walls = wall_speed(problem)
+        self.fastest = max(self.walls, _largest(problem.velocities))
+        self.start = self._kinetic(problem.velocities)
+        self.heights = self._heights(problem)
+        self.scale = 0.5 * self.mass * len(problem.positions) * problem.speed**2
+
+    def _kinetic(self, velocities: Array) -> float:
+        return 0.5 * self.mass * float((velocities**2).sum())
+
+    def _heights(self, problem: Problem) -> float | None:
+        """sum_i f . x_i at the start; None where particles go round a period along the force."""
+        round_ = any(periodic and force for periodic, force in zip(problem.periodic, self.force, strict=True))
+        return None if round_ else float((problem.positions @ self.force).sum())
+
+    def found(self, flow: FlowInTime) -> str | None:
+        """What is wrong with a flow, in a sentence without its end; None where nothing is.
+
+        - Fluid that no force drives is not faster than 1.25 times the fastest wall or particle at the start.
+        - Where walls are at rest, kinetic energy, that of sound and that in a constant force do not grow by more than
+          1 % of their start or, from rest, of the energy that was turned over.
+        - The residual of the energy budget does not rise by more than 10 % of the energy that was there and turned over.
+        """
+        least = NOTHING * flow.problem.speed
+        if not self.driven and (speed := _largest(flow.velocities)) > OVERTAKEN * max(self.fastest, least):
+            what = "fastest wall" if self.walls == self.fastest else "fastest particle at the start"
+            times = f"{speed / self.fastest:.3g} times as fast as the {what}" if self.fastest else "on its way from rest"
+            return f"fluid is {times}, and no force drives it"
+        budget: EnergyBudget | None = getattr(flow, "energy_budget", None)
+        if not self.walls and not self.varied and self.heights is not None:
+            whole = self.start if budget is None else budget.largest + budget.turned
+            grown = self._grown(flow) / max(whole, NOTHING * self.scale)
+            if grown > GROWTH:
+                return f"its energy has grown by {grown:.2g} of what there was, and nothing gives any"
+        if budget is not None and (created := budget.created(flow.velocities)) > CREATED:
+            return f"the discretisation has made {created:.2g} of the energy that was there and turned over"
+        return None
+
+    def _grown(self, flow: FlowInTime) -> float:
+        """Kinetic energy, that of sound and that in a constant force, over what they were at the start."""
+        assert self.heights is not None
+        given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)
+        return self._kinetic(flow.velocities) + self._sound(flow) - self.start - given
+
+    def _sound(self, flow: FlowInTime) -> float:
+        """sum_i m p^2 / (2 rho^2 c^2), of pressures beside their mean."""
+        speed = getattr(flow, "sound_speed", math.inf)
+        if not math.isfinite(speed):
+            return 0.0
+        return 0.5 * self.mass * float(np.var(flow.pressure)) * flow.count / (flow.problem.density * speed) ** 2
+
+
+def _largest(velocities: Array) -> float:
+    return math.sqrt(float((velocities**2).sum(axis=1).max(initial=0.0)))
+
+
+def wall_speed(problem: Problem) -> float:
+    """The speed of the fastest wall."""
+    speeds = [math.hypot(*velocity) for velocity in (problem.box.lower_velocity, problem.box.upper_velocity) if velocity]
+    if problem.shape is not None:
+        speeds.append(fastest(problem.shape, problem.spacing, problem.window))
+    return max(speeds, default=0.0)
+
+
+def unresolved(problem: Problem) -> list[str]:
+    """Sentences that say what the particles of a problem do not resolve; none of a flow that they do.
+
+    - Layers at walls of the thickness L / sqrt(Re), below two spacings.
+    - The cell Reynolds number U dx / nu beyond 100, where particles that shift dissipate more than viscosity does.
+    """
+    nu, dx, length, speed = problem.kinematic_viscosity, problem.spacing, problem.length, problem.speed
+    if nu == 0.0:
+        return []
+    cell, layer = speed * dx / nu, math.sqrt(nu * length / speed) / dx
+    said = []
+    if problem.walled and layer < THIN_LAYER:
+        said.append(
+            f"layers at walls, L / sqrt(Re) thick, are {layer:.2g} spacings and not resolved below {THIN_LAYER:g}: take"
+            f" {THIN_LAYER / layer:.2g} times the resolution"
+        )
+    elif cell > LARGE_CELL:
+        said.append(
+            f"the cell Reynolds number U dx / nu is {cell:.3g}, and beyond {LARGE_CELL:g} particles dissipate more than"
+            " the viscosity does"
+        )
+    return said

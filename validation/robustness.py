@@ -1,0 +1,158 @@
+"""Map where flows hold: every case, scheme and preset at resolutions that are no round numbers, Re from 1e-3 to 1e5.
+
+    python validation/robustness.py --workers 2      # everything that is not kept yet
+    python validation/robustness.py --kinds cavity   # the kinds whose name has that in it
+    python validation/robustness.py --table          # draw up what is kept
+
+Each run goes on until its particles are disordered or, where viscosity limits the step, for so many steps. Kept are how it
+ended, what it made of its energy and how far its particles went; a run that is kept with the same settings is not made
+again. Stopped, it goes on where it stood.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+from typing import Any
+
+KEPT = Path(__file__).with_suffix(".json")
+RESOLUTIONS = (13, 17, 19, 23, 29, 37, 43, 53)
+REYNOLDS = (1e-3, 1e-1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5)
+STEPS = {"explicit": 6000, "incompressible": 400}
+UNTIL = {"poiseuille": 5.0, "couette": 5.0, "taylor-green": 1.5, "cavity": 3.0, "cavity-cylinder": 3.0, "dam-break": 3.3}
+
+DEFAULT: dict[str, Any] = {}
+IMPLICIT = {"viscous_step": "crank_nicolson"}
+KINDS: dict[str, tuple[str, dict[str, Any]]] = {
+    f"{case} {scheme} {name}": (case, {"scheme": scheme, **changes})
+    for case in UNTIL
+    for scheme, name, changes in (
+        ("explicit", "default", DEFAULT),
+        ("explicit", "modern", {"preset": "modern"}),
+        ("incompressible", "default", DEFAULT),
+        ("incompressible", "paper", {"preset": "paper"}),
+        ("incompressible", "crank_nicolson", IMPLICIT),
+    )
+    if not (scheme == "explicit" and case in ("cavity-cylinder", "dam-break"))
+    if not (name == "paper" and case == "dam-break")  # its walls need fluid on all sides
+}
+FIELDS = ("kinetic_energy", "energy_residual", "energy_created", "density_deviation", "smallest_distance", "largest_gap")
+
+
+def wanted(part: str) -> Iterator[tuple[str, int, float]]:
+    """The runs, small ones first."""
+    for resolution in RESOLUTIONS:
+        for kind in KINDS:
+            if part in kind:
+                for reynolds in REYNOLDS:
+                    yield kind, resolution, reynolds
+
+
+def run(kind: str, resolution: int, reynolds: float) -> dict[str, Any]:
+    """Compute a run, and say what became of it."""
+    import numpy as np
+
+    import sphear
+    from sphear.errors import SphearError
+    from sphear.schemes.watch import unresolved
+
+    case, changes = KINDS[kind]
+    began = time.monotonic()
+    try:
+        made = sphear.flow(
+            case,
+            **changes,
+            resolution=resolution,
+            reynolds=reynolds,
+            until=UNTIL[case],
+            max_steps=STEPS[changes["scheme"]],
+            threads=1,
+        )
+    except SphearError as error:
+        return {"end": f"refused: {error}"}
+    problem = made.flow.problem
+    said = unresolved(problem)
+    made.run()
+    velocities = made.flow.velocities
+    with np.errstate(all="ignore"):
+        speed = float(np.sqrt((velocities**2).sum(axis=1).max()))
+        energies = [row.get("kinetic_energy", math.nan) for row in made.history]
+    last = made.history[-1]
+    return {
+        "end": made.end[:200],
+        "time": made.flow.time,
+        "steps": made.flow.steps,
+        "moved": min(problem.speed * made.flow.time / problem.spacing, 1e9),
+        "cell_reynolds": problem.speed * problem.spacing / problem.kinematic_viscosity,
+        "unresolved": len(said),
+        "speed": speed / problem.speed,
+        "largest_energy": max(energies),
+        **{name: last[name] for name in FIELDS if name in last},
+        "largest_created": max((row.get("energy_created", 0.0) for row in made.history), default=0.0),
+        "seconds": round(time.monotonic() - began, 2),
+    }
+
+
+def rounded(value: Any) -> Any:
+    """Numbers with four digits, and None where there is none."""
+    if isinstance(value, float):
+        return float(f"{value:.4g}") if math.isfinite(value) else None
+    return value
+
+
+def compute(part: str, workers: int) -> None:
+    """Compute what is not kept, and keep each run as it ends."""
+    kept = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    missing = [one for one in wanted(part) if f"{one[0]} {one[1]} {one[2]:g}" not in kept]
+    print(f"{len(missing)} runs to be made, {len(kept)} kept")
+    saved = time.monotonic()
+    with ProcessPoolExecutor(workers) as pool:
+        runs = {pool.submit(run, *one): one for one in missing}
+        for number, ended in enumerate(as_completed(runs), 1):
+            kind, resolution, reynolds = runs[ended]
+            kept[f"{kind} {resolution} {reynolds:g}"] = {k: rounded(v) for k, v in ended.result().items()}
+            if time.monotonic() - saved > 5.0 or number == len(missing):
+                keep(kept)
+                saved = time.monotonic()
+
+
+def keep(kept: dict[str, Any]) -> None:
+    """Write what is kept, a run a line."""
+    beside = KEPT.with_suffix(".tmp")
+    beside.write_text("{\n" + ",\n".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in sorted(kept.items())) + "\n}\n")
+    beside.replace(KEPT)
+
+
+def table(part: str) -> str:
+    """How many runs of each kind failed, at which cell Reynolds numbers, and what the others made of their energy."""
+    kept = json.loads(KEPT.read_text())
+    rows = ["| kind | runs | failed | least cell Re of a failure | largest created | untold failures |", "|---|---|---|---|---|---|"]
+    for kind in KINDS:
+        runs = [value for key, value in kept.items() if key.startswith(kind + " ") and part in kind]
+        ran = [one for one in runs if not one["end"].startswith("refused")]
+        failed = [one for one in ran if one["end"].startswith("failed")]
+        cells = [one["cell_reynolds"] for one in failed]
+        created = [one["largest_created"] or 0.0 for one in ran if one not in failed]
+        untold = sum(not one["unresolved"] for one in failed)
+        if ran:
+            rows.append(
+                f"| `{kind}` | {len(ran)} | {len(failed)} | {f'{min(cells):.3g}' if cells else ''} |"
+                f" {max(created, default=0.0):.3f} | {untold} |"
+            )
+    return "\n".join(rows)
+
+
+if __name__ == "__main__":
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--workers", type=int, default=1)
+    arguments.add_argument("--kinds", default="")
+    arguments.add_argument("--table", action="store_true")
+    given = arguments.parse_args()
+    if not given.table:
+        compute(given.kinds, given.workers)
+    print(table(given.kinds))
