@@ -36,12 +36,16 @@ def locked(path: Path, what: str) -> Iterator[None]:
     descriptor = _taken(path, what)
     try:
         os.ftruncate(descriptor, 0)
-        os.pwrite(descriptor, f"{os.getpid()} {node()}\n".encode(), 0)
+        os.lseek(descriptor, 0, os.SEEK_SET)
+        os.write(descriptor, f"{os.getpid()} {node()}\n".encode())
         yield
     finally:
+        if os.name != "posix":  # which cannot remove an open file
+            os.close(descriptor)
         with suppress(OSError):
             path.unlink()
-        os.close(descriptor)
+        if os.name == "posix":
+            os.close(descriptor)
 
 
 def _taken(path: Path, what: str) -> int:
@@ -55,11 +59,12 @@ def _taken(path: Path, what: str) -> int:
             continue
         if free and there:
             return descriptor
-        holder = os.pread(descriptor, 300, 0).decode(errors="replace").split()
+        holder = _holder(descriptor)
         os.close(descriptor)
         if there:
             by = f"process {holder[0]} on {holder[1]}" if len(holder) == 2 else "another process"
-            gone = f"; if that process is gone, delete {path}" if len(holder) == 2 and holder[1] != node() else ""
+            known = os.name == "posix" and holder[1:] in ([], [node()])
+            gone = "" if known else f"; if that process is gone, delete {path}"
             raise SphearError(f"{what} is being computed by {by}: wait for its end or take another --out{gone}")
 
 
@@ -73,7 +78,13 @@ def _lock(descriptor: int) -> bool:
                 return False
         else:
             return True
-    holder = os.pread(descriptor, 300, 0).decode(errors="replace").split()
+    holder = _holder(descriptor)
     if len(holder) != 2 or not holder[0].isdigit():
         return True
     return holder[1] == node() and not is_running(int(holder[0]))
+
+
+def _holder(descriptor: int) -> list[str]:
+    """The number and the machine of the process that a lock file names."""
+    os.lseek(descriptor, 0, os.SEEK_SET)
+    return os.read(descriptor, 300).decode(errors="replace").split()

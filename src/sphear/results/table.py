@@ -62,10 +62,11 @@ class Blocks:
         for number, block in enumerate(blocks):
             title = Text(table.title, "bold") if number == 0 else None
             shown = rich.table.Table(title=title, title_justify="left", box=rich.box.SIMPLE_HEAD)
+            narrow = sum(widths[k] + 3 for k in block) + 1 > options.max_width
             for k in block:
                 column = table.columns[k]
                 justify: JustifyMethod = "right" if column.format else "left"
-                least = None if fits or len(block) == 1 else widths[k]
+                least = None if fits or narrow else widths[k]
                 shown.add_column(Text(column.heading), justify=justify, overflow="fold", min_width=least)
             for row in range(len(table.rows)):
                 shown.add_row(*(Text(cells[k][row]) for k in block))

@@ -13,8 +13,7 @@ import numpy as np
 from sphear.cases.flow.base import FlowCase, Settings
 from sphear.cases.flow.own_walls import opened
 from sphear.cases.flow.pace import Savings, Slices
-from sphear.cases.flow.saved import About, read, write
-from sphear.errors import SphearError
+from sphear.cases.flow.saved import About, check, read, write
 from sphear.schemes.base import FlowFailure, flow_in_time
 from sphear.schemes.named import named
 from sphear.versions import versions
@@ -210,27 +209,12 @@ class FlowRun:
             SphearError: it cannot be read, or is of another run.
         """
         about, state = read(path)
-        was, (reached, steps) = about.settings, (float(x) for x in state["clock"])
-        now = self.settings.model_dump(mode="json")
-        changed = [
-            key
-            for key, value in now.items()
-            if was.get(key) != value and key not in ("until", "max_steps", "threads", "force")
-        ]
-        if about.case != self.case.name:
-            raise SphearError(f"the saved run in {path} is of {about.case}, not of {self.case.name}")
-        if changed:
-            raise SphearError(
-                f"the saved run in {path} has {changed[0]} = {was.get(changed[0])}, not {now[changed[0]]}"
-            )
-        settings, time = self.settings, reached / self.unit
+        reached = float(state["clock"][0]) / self.unit
         step = 1.001 * self.flow.time_step / self.unit  # a run ends within one of its time
-        for name, last, there in (("until", settings.until, time - step), ("max_steps", settings.max_steps, steps)):
-            if last is not None and there > last:
-                now_at = time if name == "until" else steps
-                raise SphearError(f"the saved run in {path} is already at {now_at:g}, beyond {name} = {last:g}")
+        now = self.settings.model_dump(mode="json")
+        check(path, about, self.case.name, now, {"until": reached - step, "max_steps": int(state["clock"][1])})
         self.flow.restore(state)
-        self.history, self.seconds, self.end, self.saved = about.history, about.seconds, "", time
+        self.history, self.seconds, self.end, self.saved = about.history, about.seconds, "", reached
 
     def as_dict(self) -> dict[str, Any]:
         """Case, resolved settings, metrics and performance, as `--json` prints them."""

@@ -22,6 +22,8 @@ UNREADABLE = (  # what damage makes NumPy and what is below it raise
     CompressionError, AttributeError, MemoryError,
 )  # fmt: skip
 
+FREE = ("until", "max_steps", "threads", "force")  # settings that do not change what is computed
+
 
 class About(BaseModel):
     """What is saved beside the state of the flow.
@@ -109,6 +111,31 @@ def read(path: Path) -> tuple[About, dict[str, Array]]:
         if values.dtype.kind not in "fb" or not np.isfinite(values).all():
             raise nothing
     return about, state
+
+
+def check(path: Path, about: About, case: str, settings: dict[str, Any], reached: dict[str, float]) -> None:
+    """Refuse what was saved of another run.
+
+    Args:
+        path: where it is.
+        about: what was saved.
+        case: of the run.
+        settings: of the run, as JSON.
+        reached: what settings that end a run must not be less than.
+
+    Raises:
+        SphearError: it is of another case, has other settings, or is beyond the end.
+    """
+    was = about.settings
+    changed = [key for key, value in settings.items() if was.get(key) != value and key not in FREE]
+    if about.case != case:
+        raise SphearError(f"the saved run in {path} is of {about.case}, not of {case}")
+    if changed:
+        key = changed[0]
+        raise SphearError(f"the saved run in {path} has {key} = {was.get(key)}, not {settings[key]}")
+    for name, there in reached.items():
+        if settings[name] is not None and there > settings[name]:
+            raise SphearError(f"the saved run in {path} is already at {there:g}, beyond {name} = {settings[name]:g}")
 
 
 def recover(path: Path) -> str | None:
