@@ -32,14 +32,11 @@ SENT = {
 @pytest.fixture(autouse=True)
 def usual() -> Iterator[None]:
     """What a shell starts a command with; the test may have been started otherwise."""
-    handlers = {
-        signal.SIGINT: signal.default_int_handler,
-        signal.SIGTERM: signal.SIG_DFL,
-        signal.SIGHUP: signal.SIG_DFL,
-    }
-    before: dict[int, Any] = {number: signal.signal(number, handler) for number, handler in handlers.items()}
+    handlers: dict[int, Any] = {signal.SIGINT: signal.default_int_handler}
+    handlers |= {signal.SIGTERM: signal.SIG_DFL, signal.SIGHUP: signal.SIG_DFL}
+    before: list[tuple[int, Any]] = [(number, signal.signal(number, handlers[number])) for number in handlers]
     yield
-    for number, handler in before.items():
+    for number, handler in before:
         signal.signal(number, handler)
 
 
