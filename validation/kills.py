@@ -211,35 +211,38 @@ def main() -> None:
     parser.add_argument("--kills", type=int, default=50, help="of each scheme")
     parser.add_argument("--signals", type=int, default=20, help="of each kind, at each moment")
     parser.add_argument("--compiling", type=int, default=5, help="of each kind, while compiling")
+    parser.add_argument("--scheme", action="append", choices=SCHEMES, help="to be killed; all if not given")
+    parser.add_argument("--file", type=Path, default=Path(__file__).with_suffix(".json"), help="of results")
     options = parser.parse_args()
     os.environ |= {"SPHEAR_SAVE_SECONDS": "0", "SPHEAR_PROGRESS_SECONDS": "0"}
     for each in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):  # children must not inherit that one is ignored
         signal.signal(each, signal.default_int_handler if each == signal.SIGINT else signal.SIG_DFL)
     chance = random.Random(2026)
-    found: dict[str, Any] = {"kills": {}, "signals": {}}
-    target = Path(__file__).with_suffix(".json")
     with tempfile.TemporaryDirectory() as scratch:
         place = Path(scratch)
-        for scheme in SCHEMES:  # compiles and imports all that children need
-            warm(scheme)
-        for scheme in SCHEMES:
+        for scheme in options.scheme or SCHEMES if options.kills else ():
             here = place / scheme.replace(" ", "-")
             here.mkdir()
-            found["kills"][scheme] = kills(scheme, options.kills, here, chance)
-            print(scheme, found["kills"][scheme], flush=True)
-            target.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-        here = place / "explicit"
-        moments = {"computing": "*-state.npz", "writing": "*.json"}
-        for name in SIGNALS:
-            found["signals"][name] = {
-                moment: heard("explicit", name, pattern, options.signals, here, chance)
-                for moment, pattern in moments.items()
-            }
-            print(name, found["signals"][name], flush=True)
-        for name in SIGNALS:
-            found["signals"][name]["compiling"] = compiling(name, options.compiling, here, chance)
-            print(name, found["signals"][name], flush=True)
-            target.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+            warm(scheme)  # compiles and imports all that children need
+            keep(options.file, "kills", scheme, kills(scheme, options.kills, here, chance))
+        here = place / "signals"
+        here.mkdir()
+        if options.signals:
+            warm("explicit")
+        for name in SIGNALS if options.signals else ():
+            for moment, pattern in (("computing", "*-state.npz"), ("writing", "*.json")):
+                found = heard("explicit", name, pattern, options.signals, here, chance)
+                keep(options.file, "signals", f"{name}, {moment}", found)
+        for name in SIGNALS if options.compiling else ():
+            keep(options.file, "signals", f"{name}, compiling", compiling(name, options.compiling, here, chance))
+
+
+def keep(target: Path, kind: str, name: str, found: dict[str, int]) -> None:
+    """Put what was found beside what is in the file already."""
+    print(name, found, flush=True)
+    before = json.loads(target.read_text(encoding="utf-8")) if target.exists() else {"kills": {}, "signals": {}}
+    before[kind][name] = found
+    target.write_text(json.dumps(before, indent=1) + "\n", encoding="utf-8")
 
 
 def warm(scheme: str) -> None:

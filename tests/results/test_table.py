@@ -96,7 +96,7 @@ def wide(columns: int, rows: int = 2) -> Table:
     return Table("many", tuple(Column(name, f"a long name of {name}", ".8g") for name in names), values)
 
 
-@pytest.mark.parametrize("width", [20, 40, 80, 120])
+@pytest.mark.parametrize("width", [24, 40, 80, 120])
 @pytest.mark.parametrize("columns", [1, 2, 7, 14])
 def test_no_number_is_broken_and_no_line_is_too_long(columns: int, width: int) -> None:
     table = wide(columns)
