@@ -10,7 +10,7 @@ LOCKED := --require-hashes --only-binary :all: --constraint constraints.txt
 .NOTPARALLEL:
 
 demo: .venv/for-use
-	$(BIN)/sphear run cavity --scheme incompressible --resolution 40 --out demo
+	$(BIN)/sphear run cavity --scheme incompressible --resolution 40 --out demo --overwrite
 	$(BIN)/sphear reproduce zheng2018 table-1 table-2 figure-3 figure-5 figure-12 --out demo
 
 test: .venv/for-test

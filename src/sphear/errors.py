@@ -11,5 +11,17 @@ class TooFewNeighboursError(SphearError):
     """Some particles have too few (or too badly placed) neighbours for a correction or a fit."""
 
 
+class OutputError(SphearError):
+    """A file of results that could not be written, by no mistake in the input."""
+
+
 class Interrupted(Exception):
-    """Ctrl-C in the midst of what can go on later; the message is one sentence that says how."""
+    """A signal in the midst of what can go on later; the message is one sentence that says how.
+
+    Attributes:
+        status: exit status of the command line, 128 and the number of the signal: 130 of Ctrl-C.
+    """
+
+    def __init__(self, sentence: str, status: int = 130) -> None:
+        super().__init__(sentence)
+        self.status = status

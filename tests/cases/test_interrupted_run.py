@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow.saved import checksum, earlier, forget, read, recover
 from sphear.errors import SphearError
 
 CASE = FLOWS["poiseuille"]
@@ -126,8 +127,8 @@ SAID: dict[str, tuple[str, Any]] = {
 
 def damaged(path: Path, spoil: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
     with np.load(path, allow_pickle=False) as file:
-        state = spoil(dict(file))
-    np.savez(path, allow_pickle=False, **state)
+        state = spoil({name: values for name, values in file.items() if name != "checksum"})
+    np.savez(path, allow_pickle=False, checksum=np.array(checksum(state)), **state)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
@@ -178,12 +179,64 @@ def test_the_state_of_a_flow_of_another_size_is_refused(tmp_path: Path) -> None:
         run.flow.restore(state)
 
 
-def test_saving_again_replaces_the_file_and_leaves_nothing_beside_it(tmp_path: Path) -> None:
-    path = tmp_path / "state.npz"
+def saved_twice(path: Path) -> tuple[bytes, bytes]:
+    """The bytes of a state, and of the one three steps later, which has the name now."""
     run = start()
     run.save(path)
     before = path.read_bytes()
     run.flow.advance(3)
     run.save(path)
-    assert path.read_bytes() != before
-    assert list(tmp_path.iterdir()) == [path]
+    return before, path.read_bytes()
+
+
+def test_saving_again_keeps_the_file_before_and_no_other(tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    before, now = saved_twice(path)
+    assert before != now
+    assert earlier(path).read_bytes() == before
+    start().save(path)
+    assert earlier(path).read_bytes() == now
+    assert sorted(tmp_path.iterdir()) == sorted([path, earlier(path)])
+    forget(path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_array_that_is_not_the_one_that_was_saved_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    start().save(path)
+    with np.load(path, allow_pickle=False) as file:
+        members = dict(file)
+    np.savez(path, allow_pickle=False, **{**members, "x": np.nextafter(members["x"], np.inf)})
+    with pytest.raises(SphearError, match="there is no saved run in"):
+        read(path)
+
+
+@pytest.mark.parametrize("damage", [*DAMAGES, "missing"])
+def test_the_state_before_takes_the_place_of_one_that_is_damaged(damage: str, tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    before, now = saved_twice(path)
+    if damage == "missing":
+        path.unlink()
+    else:
+        path.write_bytes(DAMAGES[damage](now))
+    said = recover(path)
+    assert said is not None
+    assert said.endswith(f"was {'missing' if damage == 'missing' else 'damaged'}: the one before it is taken")
+    assert path.read_bytes() == before
+    assert not earlier(path).exists()
+
+
+def test_a_state_that_is_whole_is_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    before, now = saved_twice(path)
+    assert recover(path) is None
+    assert (earlier(path).read_bytes(), path.read_bytes()) == (before, now)
+
+
+def test_where_both_states_are_damaged_nothing_is_taken(tmp_path: Path) -> None:
+    path = tmp_path / "state.npz"
+    saved_twice(path)
+    path.write_bytes(b"")
+    earlier(path).write_bytes(b"")
+    assert recover(path) is None
+    assert path.read_bytes() == b""

@@ -68,7 +68,9 @@ def test_a_table_says_what_is_computed_and_how_it_ended(sphear: Run) -> None:
 def test_files_and_particles(sphear: Run) -> None:
     outcome = sphear(*CYLINDER, "--set", "max_steps=2", "--json", "--out", "results")
     files = {path.name for path in Path("results").iterdir()}
-    assert files == {f"cavity-cylinder{end}" for end in (".json", ".csv", "-particles.csv", ".png", ".svg")}
+    assert files == {
+        f"cavity-cylinder{end}" for end in (".json", ".csv", "-particles.csv", ".png", ".svg", "-state.npz")
+    }
     written = json.loads(Path("results/cavity-cylinder.json").read_text())
     assert len(written.pop("history")) == 2
     assert written == outcome.json()
@@ -76,9 +78,11 @@ def test_files_and_particles(sphear: Run) -> None:
 
 def test_a_failure_is_reported_with_files_and_without_warnings(sphear: Run) -> None:
     command = (*CAVITY, "--set", "time_step=1e200", "--force", "--json", "--out", "results")
-    result = sphear(*command).json()
-    assert result["metrics"]["end"].startswith("failed: the flow failed at t = 0")
+    outcome = sphear(*command)
+    assert (outcome.status, outcome.err) == (3, "")
+    assert json.loads(outcome.out)["metrics"]["end"].startswith("failed: the flow failed at t = 0")
     assert Path("results/cavity.png").exists()
+    assert not Path("results/cavity-state.npz").exists()  # there is nothing to go on with
 
 
 def test_an_interrupted_run_is_gone_on_with(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -98,7 +102,6 @@ def test_an_interrupted_run_is_gone_on_with(sphear: Run, monkeypatch: pytest.Mon
     assert (refused.status, "has alpha = None, not 0.2" in refused.err) == (2, True)
     resumed = sphear(*short, "--out", "results", "--resume", "--json").json()
     assert resumed["metrics"] == sphear(*short, "--json").json()["metrics"]
-    assert not Path("results/cavity-state.npz").exists()
 
 
 WRONG: dict[str, tuple[tuple[str, ...], str]] = {

@@ -72,7 +72,7 @@ def test_resume_gives_what_an_uninterrupted_run_gives(sphear: Run, interrupted: 
     assert interrupted.status == 130
     resumed = sphear(*SHORT, "--out", "results", "--resume", "--json").json()
     assert resumed["metrics"] == sphear(*SHORT, "--json").json()["metrics"]
-    assert not Path("results/poiseuille-state.npz").exists()
+    assert not Path("results/poiseuille-state-before.npz").exists()
 
 
 def test_another_start_into_the_folder_of_an_interrupted_run_is_refused(sphear: Run, interrupted: Any) -> None:

@@ -3,22 +3,34 @@
 from __future__ import annotations
 
 import json
+import platform
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numba
+import numpy as np
 import pytest
+
+from sphear import __version__
 
 Run = Callable[..., Any]
 
 
 def test_json_is_one_document(sphear: Run) -> None:
     result = sphear("run", "poiseuille", "--until", "0.1", "--json").json()
-    assert list(result) == ["case", "settings", "metrics", "performance"]
+    assert list(result) == ["case", "settings", "metrics", "versions", "performance"]
     assert result["case"] == "poiseuille"
     assert result["settings"]["until"] == 0.1
     assert result["metrics"]["end"] == "time"
     assert result["performance"]["particles"] == 400
+
+
+def test_a_result_says_what_computed_it(sphear: Run) -> None:
+    found = sphear("run", "poiseuille", "--resolution", "10", "--set", "max_steps=1", "--json").json()["versions"]
+    assert found == {
+        "sphear": __version__, "python": platform.python_version(), "numpy": np.__version__, "numba": numba.__version__
+    }  # fmt: skip
 
 
 def test_settings_by_option_and_by_set(sphear: Run) -> None:
@@ -64,7 +76,7 @@ def test_particles_are_written_for_other_programs(sphear: Run) -> None:
 
 def test_the_cavity_has_its_numbers_and_profiles(sphear: Run) -> None:
     result = sphear("run", "cavity", "--resolution", "12", "--until", "0.05", "--json").json()
-    assert list(result) == ["case", "settings", "metrics", "profiles", "performance"]
+    assert list(result) == ["case", "settings", "metrics", "profiles", "versions", "performance"]
     deviations = {f"{name}_{kind}_deviation" for name in "uv" for kind in ("mean", "max")}
     assert set(result["metrics"]) == deviations | {
         "time", "steps", "kinetic_energy", "kinetic_energy_error", "u_min", "reference_time", "end", "failure_time"
@@ -84,7 +96,9 @@ def test_a_forced_time_step_is_said(sphear: Run) -> None:
 
 def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
     command = ("run", "poiseuille", "--set", "sound_speed=0.2", "--until", "5", "--json")
-    result = sphear(*command).json()
+    outcome = sphear(*command)
+    assert (outcome.status, outcome.err) == (3, "")
+    result = json.loads(outcome.out)
     assert result["metrics"]["end"].startswith("failed: ")
     assert result["metrics"]["failure_time"] > 0
 

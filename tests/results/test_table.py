@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from sphear.results import Column, Table
+from sphear.results.table import packed
 
 TABLE = Table(
     "Errors of two viscous terms",
@@ -87,3 +88,43 @@ def test_a_csv_file_gives_back_what_was_written(rows: list[tuple[str, float]]) -
 def test_a_table_does_not_change() -> None:
     with pytest.raises(FrozenInstanceError):
         TABLE.title = "another"  # type: ignore[misc]
+
+
+def wide(columns: int, rows: int = 2) -> Table:
+    names = [f"quantity {k}" for k in range(columns)]
+    values = [{name: 1234.5 + 1e-3 * k + row for k, name in enumerate(names)} for row in range(rows)]
+    return Table("many", tuple(Column(name, f"a long name of {name}", ".8g") for name in names), values)
+
+
+@pytest.mark.parametrize("width", [24, 40, 80, 120])
+@pytest.mark.parametrize("columns", [1, 2, 7, 14])
+def test_no_number_is_broken_and_no_line_is_too_long(columns: int, width: int) -> None:
+    table = wide(columns)
+    text = shown(table, width)
+    assert max(map(len, text.splitlines())) <= width
+    for row in table.rows:
+        for column in table.columns:
+            if column.key != "quantity 0" or columns == 1:
+                assert text.split().count(column.text(row[column.key])) == 1
+
+
+def test_each_block_has_the_first_column() -> None:
+    text = shown(wide(14), 60)
+    blocks = text.count("1234.5 ")
+    assert blocks > 1
+    assert text.count("many") == 1
+    assert shown(wide(14), 1000).count("1234.5 ") == 1
+
+
+@pytest.mark.parametrize(
+    ("widths", "room", "blocks"),
+    [
+        ([3, 3, 3], 19, [[0, 1, 2]]),
+        ([3, 3, 3], 18, [[0, 1], [0, 2]]),
+        ([3], 2, [[0]]),
+        ([9, 9], 5, [[0, 1]]),
+        ([], 80, []),
+    ],
+)
+def test_columns_are_packed(widths: list[int], room: int, blocks: list[list[int]]) -> None:
+    assert packed(widths, room) == blocks

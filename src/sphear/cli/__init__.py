@@ -5,8 +5,9 @@ from __future__ import annotations
 import io
 import os
 import sys
+from contextlib import suppress
 
-from sphear.errors import Interrupted, SphearError
+from sphear.errors import Interrupted, OutputError, SphearError
 
 INTERRUPTED = 130
 
@@ -22,13 +23,15 @@ def main() -> None:
         status = run()
         if sys.stdout is not None:
             sys.stdout.flush()
+    except OutputError as error:
+        _fail(str(error), 1)
     except SphearError as error:
         _fail(str(error), 2)
     except KeyboardInterrupt:
         exec("")  # without it Python, where Ctrl-C came while it ran text, would end by the signal, not by the status
         _fail("interrupted; nothing half-written is left", INTERRUPTED)
     except Interrupted as error:
-        _fail(str(error), INTERRUPTED)
+        _fail(str(error), error.status)
     except MemoryError:
         _fail("there is not enough memory for this", 1)
     except BrokenPipeError:  # the reader, such as `head`, has seen enough
@@ -48,5 +51,6 @@ def _discard_output() -> None:
 
 
 def _fail(sentence: str, status: int) -> None:
-    print(f"sphear: {' '.join(sentence.split())}", file=sys.stderr)
+    with suppress(OSError):  # its terminal may be closed
+        print(f"sphear: {' '.join(sentence.split())}", file=sys.stderr)
     sys.exit(status)

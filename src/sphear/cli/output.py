@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, TextIO
 
+from sphear.environment import seconds
 from sphear.errors import SphearError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from sphear.results import OutputFolder, Table
+
+FIRST_LINE = "SPHEAR_PROGRESS_SECONDS"
+USUAL, LONGEST = 10.0, 600.0  # seconds before the first line of a log file, and between two
 
 
 def print_json(value: Any) -> None:
@@ -29,10 +35,11 @@ def is_terminal(stream: TextIO | None) -> bool:
 
 
 def print_tables(tables: Sequence[Table]) -> None:
-    """The tables on stdout, as wide as they are where stdout is not a terminal."""
+    """The tables on stdout, as wide as the terminal or `$COLUMNS`; where neither is known, as wide as they are."""
     from rich.console import Console
 
-    console = Console(width=None if is_terminal(sys.stdout) else 200, highlight=False)
+    known = is_terminal(sys.stdout) or os.environ.get("COLUMNS", "").isdigit()
+    console = Console(width=None if known else 200, highlight=False)
     for table in tables:
         console.print(table.render())
 
@@ -46,14 +53,45 @@ def print_text(text: str) -> None:
 
 @contextmanager
 def progress(what: str) -> Iterator[Callable[[str], None]]:
-    """A line on stderr that says what is being done; nothing where stderr is not a terminal."""
+    """A line on stderr that says what is being done, and where it stands; in a log file now and then."""
     if not is_terminal(sys.stderr):
-        yield lambda text: None
+        yield now_and_then(what, sys.stderr)
         return
     from rich.console import Console
 
-    with Console(stderr=True).status(what) as status:
+    status = Console(stderr=True).status(what)
+    with suppress(OSError):  # a terminal may be closed meanwhile
+        status.start()
+    try:
         yield lambda text: status.update(f"{what}: {text}")
+    finally:
+        with suppress(OSError):
+            status.stop()
+
+
+def now_and_then(what: str, stream: TextIO | None) -> Callable[[str], None]:
+    """What writes lines for a log file: the first after 10 s, then each time that took twice as long, or 10 minutes.
+
+    Args:
+        what: is being done.
+        stream: None where there is none.
+
+    Raises:
+        SphearError: `$SPHEAR_PROGRESS_SECONDS`, the time of the first line (0 for none at all), is no number.
+    """
+    first = seconds(FIRST_LINE, USUAL)
+    began = last = time.monotonic()
+
+    def tell(text: str) -> None:
+        nonlocal last
+        now = time.monotonic()
+        if stream is None or not first or now - last < min(max(first, last - began), LONGEST):
+            return
+        last = now
+        with suppress(OSError):
+            print(f"{what}: {text}", file=stream, flush=True)
+
+    return tell
 
 
 def folder(out: str | None) -> OutputFolder | None:

@@ -9,6 +9,7 @@ import typer
 from sphear.checked import checked
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.errors import SphearError
+from sphear.versions import versions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,7 +49,7 @@ def patch_test(
     with progress("patch test") as tell:
         rows = test.rows(tell)
     table = _table(test, rows)
-    result = {"case": "patch-test", "settings": test.model_dump(mode="json"), "rows": rows}
+    result = {"case": "patch-test", "settings": test.model_dump(mode="json"), "versions": versions(), "rows": rows}
     if files is not None:
         write(files, "patch-test", result, [table], {"patch-test": lambda: _figure(test, rows)})
     if as_json:

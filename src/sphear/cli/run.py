@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
+from sphear.cli.kept import compute, finish, kept_in
+from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, write
 from sphear.cli.settings import changes
-from sphear.errors import Interrupted, SphearError
+from sphear.cli.signals import Signals
+from sphear.errors import SphearError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from sphear.cases.flow import FlowRun
-    from sphear.results import OutputFolder
     from sphear.results.table import Table
+
+FAILED = 3  # exit status of a flow that broke down
 
 
 def run(
@@ -32,9 +35,17 @@ def run(
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
     out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history, particles, JSON to this folder."),
-    resume: bool = typer.Option(False, "--resume", help="Go on with the run that was interrupted in --out DIR."),
+    resume: bool = typer.Option(
+        False, "--resume", help="Go on with the run in --out DIR: interrupted, or ended and now --until later."
+    ),
+    overwrite: bool = typer.Option(False, "--overwrite", help="Replace the run of this case in --out DIR."),
 ) -> None:
-    """Compute a flow from its start to its end, or to its failure."""
+    """Compute a flow from its start to its end, or to its failure.
+
+    Exit status: 0, the flow ended; 3, it failed (what was found is printed and written all the same); 2, the command
+    is wrong; 1, results cannot be written or memory is short; 130, 143, 129: interrupted by Ctrl-C, SIGTERM or SIGHUP,
+    with its state kept in --out DIR.
+    """
     from sphear.cases.flow import FLOWS, FlowRun
     from sphear.cases.flow.chosen import flow_settings
 
@@ -44,52 +55,38 @@ def run(
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
         "until": until, "scheme": scheme, "force": force or None,
     }  # fmt: skip
-    if resume and files is None:
-        raise SphearError("--resume goes on with the run of a folder: name it by --out DIR")
     named = {key: value for key, value in given.items() if value is not None}
     wanted: dict[str, Any] = dict(changes(texts))
     if both := next((key for key in named if key in wanted), None):
         raise SphearError(f"the setting {both} is given by --{both} and by --set: choose one")
     wanted |= named
     flow = FlowRun(chosen, flow_settings(chosen, wanted, preset))
-    keep = None if files is None else files.path / f"{chosen.name}-state.npz"
-    if resume and keep is not None:
-        flow.restore(keep)
-    elif keep is not None and keep.exists():
-        raise SphearError(
-            f"{keep} holds a run that was interrupted: --resume goes on with it; a new one needs another --out, or that"
-            " file deleted"
-        )
-    if not as_json:
-        print_text(_start(flow))
-    if keep is not None:
-        keep.parent.mkdir(parents=True, exist_ok=True)
-    with progress(f"{chosen.name}") as tell:
-        try:
-            flow.run(tell, keep)
-        except KeyboardInterrupt:
-            raise Interrupted(_interrupted(flow, files)) from None
+    with Signals() as signals, kept_in(files, flow, resume=resume, overwrite=overwrite):
+        if not as_json:
+            print_text(_start(flow))
+        compute(flow, files, signals)
+        result: dict[str, Any] = {}
+        steps = [lambda: result.update(flow.as_dict())]
+        if files is not None:
+            name, found = chosen.name, files
+            steps += [
+                lambda: write(found, name, {**result, "history": flow.history}, [_table(flow)], {}),
+                lambda: found.write_table(f"{name}-particles", _particles(flow)),
+                lambda: found.write_figure(name, _figure(flow)),
+            ]
+        finish(flow, files, steps, signals)
     table = _table(flow)
-    result = flow.as_dict()
-    if files is not None:
-        write(files, chosen.name, {**result, "history": flow.history}, [table], {chosen.name: lambda: _figure(flow)})
-        files.write_table(f"{chosen.name}-particles", _particles(flow))
-        if keep is not None:
-            keep.unlink(missing_ok=True)
     if as_json:
         print_json(result)
-        return
-    print_tables([table])
-    print_text(f"  End: {flow.end}.\n{_summary(result['metrics'], table)}  {_speed(result['performance'])}")
-    if files is not None:
-        print_files(files)
-
-
-def _interrupted(run: FlowRun, files: OutputFolder | None) -> str:
-    where = f"interrupted at {run.case.time_name} = {run.flow.time / run.unit:.4g}"
-    if files is None:
-        return f"{where}; nothing is kept: with --out DIR the run could be gone on with"
-    return f"{where}; the state is in {files.path}, and the same command with --resume goes on from there"
+    else:
+        print_tables([table])
+        print_text(f"  End: {flow.end}.\n{_summary(result['metrics'], table)}  {_speed(result['performance'])}")
+        for said in flow.warnings[len(flow.unresolved) :]:
+            print_text(f"  Warning: {said}.")
+        if files is not None:
+            print_files(files)
+    if flow.end.startswith("failed"):
+        raise typer.Exit(FAILED)
 
 
 def _start(run: FlowRun) -> str:
@@ -105,7 +102,7 @@ def _start(run: FlowRun) -> str:
     ]
     if settings.force and flow.time_step > longest:
         lines.append("  warning: the time step is beyond its limit")
-    lines += [f"  warning: {said}" for said in settings.without_effect(flow.problem.walled)]
+    lines += [f"  warning: {said}" for said in (*settings.without_effect(flow.problem.walled), *run.unresolved)]
     needed = math.ceil(run.planned * run.unit / flow.time_step) if math.isfinite(run.planned) else math.inf
     steps = min(needed, settings.max_steps)
     if needed > settings.max_steps and settings.until is not None and "max_steps" not in settings.model_fields_set:

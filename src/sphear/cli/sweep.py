@@ -11,6 +11,7 @@ import typer
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.cli.settings import changes, choices
 from sphear.errors import Interrupted, SphearError
+from sphear.versions import versions
 
 if TYPE_CHECKING:
     from sphear.results import Table
@@ -79,9 +80,19 @@ def _summary(
     """All but the histories, which are in the files of the runs."""
     rows = []
     for run, result in zip(runs, results, strict=True):
-        row = {key: value for key, value in result.as_dict().items() if key not in ("case", "history", "profiles")}
+        row = {
+            key: value
+            for key, value in result.as_dict().items()
+            if key not in ("case", "history", "profiles", "versions")
+        }
         rows.append({"end": row.pop("end"), **row, "file": None if result.lost else f"runs/{run.key}.json"})
-    return {"case": runs[0].case, "over": {key: _values(runs, key) for key in over}, "fixed": list(fixed), "runs": rows}
+    return {
+        "case": runs[0].case,
+        "over": {key: _values(runs, key) for key in over},
+        "fixed": list(fixed),
+        "versions": versions(),
+        "runs": rows,
+    }
 
 
 def _values(runs: Sequence[Run], key: str) -> list[Any]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sphear.errors import SphearError
+from sphear.errors import OutputError, SphearError
 from sphear.results.table import Table
+from sphear.whole import remove_partial, whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,7 +20,7 @@ class OutputFolder:
     """A folder in which every file is complete: each is written beside its name and put there in one step.
 
     A folder that cannot be written is refused at once, before anything is computed for it; it is made when the first
-    file is written.
+    file is written. What processes that were killed left half-written is removed.
 
     Attributes:
         path: The folder.
@@ -34,6 +35,7 @@ class OutputFolder:
             raise SphearError(f"{self.path} cannot be an output folder: {existing} is a file")
         if not os.access(existing, os.W_OK | os.X_OK):
             raise SphearError(f"{self.path} cannot be an output folder: {existing} is not writable")
+        remove_partial(self.path)
 
     def write_text(self, name: str, text: str) -> None:
         """Write a text file."""
@@ -57,14 +59,10 @@ class OutputFolder:
     def _complete(self, name: str) -> Iterator[Path]:
         """Lend a path to write to, and give the file its name only once it is whole."""
         path = self.path / name
-        partial = self.path / f".{name}.{os.getpid()}.partial"
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            yield partial
-            partial.replace(path)
+            with whole(path) as partial:
+                yield partial
         except OSError as error:
-            raise SphearError(f"{path} cannot be written: {error.strerror or error}") from error
-        finally:
-            with suppress(OSError):
-                partial.unlink()
+            raise OutputError(f"{path} cannot be written: {error.strerror or error}") from error
         self.files.append(path)

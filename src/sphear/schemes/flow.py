@@ -153,7 +153,7 @@ class Flow:
         )  # fmt: skip
         self._fresh = status == 0 and (self._fresh or steps > 0 or self.settings.integrator == "kick_drift_kick")
         self.steps += made
-        self.time += made * self.time_step
+        self.time = self.steps * self.time_step  # however many are made at once
         if status:
             place = ", ".join(f"{x:.6g}" for x in self._x[worst])
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")

@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
+from sphear.versions import versions
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -39,7 +41,7 @@ class StudyResult:
 
     def as_dict(self, study: str, item: str) -> dict[str, Any]:
         """What `--json` prints."""
-        result: dict[str, Any] = {"study": study, "item": item, "rows": self.rows}
+        result: dict[str, Any] = {"study": study, "item": item, "versions": versions(), "rows": self.rows}
         if self.other_readings:
             result["other_readings"] = self.other_readings
         return {**result, "claim": self.claim, "finding": self.finding, "agrees": self.agrees}

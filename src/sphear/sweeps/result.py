@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from sphear.sweeps.plan import Run
 
 HISTORY = 100  # rows at most
+OPTIONAL = {"profiles", "versions"}  # what a record may lack
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,7 @@ class SweepResult:
         performance: particles, steps and speed.
         history: at most 100 rows, the first and the last among them.
         profiles: along lines, at the end, where the case keeps any.
+        versions: of the programs that computed it, where they said so.
     """
 
     case: str
@@ -36,6 +38,7 @@ class SweepResult:
     performance: dict[str, Any] = field(default_factory=dict)
     history: list[dict[str, Any]] = field(default_factory=list)
     profiles: dict[str, list[float]] = field(default_factory=dict)
+    versions: dict[str, str] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:
@@ -49,14 +52,13 @@ class SweepResult:
 
     def as_dict(self) -> dict[str, Any]:
         """All of it, as it is stored."""
-        whole = asdict(self)
-        return whole if self.profiles else {key: value for key, value in whole.items() if key != "profiles"}
+        return {key: value for key, value in asdict(self).items() if value or key not in OPTIONAL}
 
 
 def of_record(record: Any) -> SweepResult | None:
     """The result that a record holds, as it was stored or came from a worker; None if it is not whole."""
     kinds = {"case": str, "settings": dict, "metrics": dict, "end": str, "performance": dict, "history": list}
-    if not isinstance(record, dict) or set(record) - {"profiles"} != set(kinds):
+    if not isinstance(record, dict) or set(record) - OPTIONAL != set(kinds):
         return None
     if not all(isinstance(record[key], kind) for key, kind in kinds.items()):
         return None

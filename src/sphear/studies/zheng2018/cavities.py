@@ -149,6 +149,7 @@ def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection
 def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, going on where it was saved last; fields are kept as profiles."""
     from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow.saved import forget, recover
     from sphear.errors import SphearError
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
@@ -158,13 +159,14 @@ def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     chosen_settings = FLOWS[case].settings(**settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen_settings).key}.npz"
     run = FlowRun(FLOWS[case], chosen_settings)
+    recover(saved)
     if saved.exists():
         try:
             run.restore(saved)
         except SphearError:  # of other settings
             run = FlowRun(FLOWS[case], chosen_settings)
     run.run(keep=saved)
-    saved.unlink(missing_ok=True)
+    forget(saved)
     whole = record(run)
     if "profiles" in whole and settings["viscosity"] == DRAWN:
         whole["profiles"] |= fields(run)
