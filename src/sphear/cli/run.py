@@ -39,7 +39,7 @@ def run(
     from sphear.cases.flow.chosen import flow_settings
 
     files = folder(out)
-    chosen = FLOWS[case.replace("_", "-")]
+    chosen = FLOWS[case]
     given = {
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
         "until": until, "scheme": scheme, "force": force or None,

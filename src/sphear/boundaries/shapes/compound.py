@@ -8,7 +8,7 @@ from math import inf
 import numpy as np
 
 from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Shape, Vector, slowest
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 
 
 @dataclass(frozen=True, init=False)
@@ -20,7 +20,7 @@ class Compound(Shape):
     def __init__(self, *shapes: Shape) -> None:
         for shape in shapes:
             if not isinstance(shape, Shape):
-                raise SphearError(f"only shapes can be joined to shapes, not {shape!r}")
+                raise SphearError(f"only shapes can be joined to shapes, not {quoted(shape)}")
         if not shapes:
             raise SphearError(f"{self.word.format('a shape')} needs at least one")
         object.__setattr__(self, "shapes", shapes)

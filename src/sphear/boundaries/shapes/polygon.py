@@ -11,7 +11,7 @@ import numpy as np
 from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, by_name, plane_vector, text
 from sphear.boundaries.shapes.contours import contour_rows
 from sphear.boundaries.shapes.edges import edge_rows, first_crossing
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.neighbours.domain import Domain
 
 SHORT = 2.0  # spacings: with shorter edges a polygon is a curve, whose rows run on around it
@@ -37,7 +37,7 @@ class Polygon(Primitive):
     def __post_init__(self) -> None:
         given: object = self.vertices
         if not isinstance(given, Sequence | np.ndarray) or len(given) < 3:
-            raise SphearError(f"a polygon has three or more vertices, not {given!r}")
+            raise SphearError(f"a polygon has three or more vertices, not {quoted(given)}")
         vertices = tuple(plane_vector("a vertex of a polygon", vertex) for vertex in self.vertices)
         object.__setattr__(self, "vertices", vertices)
         starts, ends = self._edges()
@@ -51,7 +51,7 @@ class Polygon(Primitive):
         kept = []
         for edge, value in by_name("the velocities of the edges of a polygon", self.velocities).items():
             if isinstance(edge, bool) or edge not in range(len(vertices)):
-                raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {edge!r}")
+                raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {quoted(edge)}")
             velocity = plane_vector(f"the velocity of edge {edge} of a polygon", value)
             along = ends[edge] - starts[edge]
             through = velocity[0] * along[1] - velocity[1] * along[0]

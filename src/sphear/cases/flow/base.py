@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, shortened
 from sphear.schemes.base import FlowInTime, Settings, settings_type
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
@@ -97,7 +97,9 @@ class FlowCase:
         """
         general = settings_type(scheme)
         if scheme not in self.defaults:
-            raise SphearError(f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {scheme}")
+            raise SphearError(
+                f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {shortened(scheme)}"
+            )
         return self.kinds.get(scheme, general)
 
     def explicit(self, **changes: Any) -> FlowSettings:
