@@ -33,7 +33,7 @@ def checked(what: str = "") -> Iterator[None]:
 
 
 def number(value: object, finite: bool = True) -> float:
-    """A real number as a float, finite unless said so; NaN for anything else, as for text, arrays, complex numbers and truth values."""
+    """A real number as a float, finite unless said so; NaN for anything else, as text, arrays and truth values are."""
     if not isinstance(value, int | float | np.integer | np.floating | np.ndarray) or isinstance(value, bool):
         return nan
     if isinstance(value, np.ndarray) and (value.ndim or value.dtype.kind not in "iuf" or _masked(value)):

@@ -148,7 +148,7 @@ WRONG: dict[str, tuple[tuple[Any, ...], str]] = {
     "upside down": (((0.0, 1.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "flat": (((0.0, 0.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "infinite": (((0.0, 0.0), (1.0, np.inf), ("periodic", "walls")), "beyond the lower one"),
-    "not a number": (((0.0, np.nan), (1.0, 1.0), ("periodic", "walls")), "beyond the lower one"),
+    "not a number": (((0.0, np.nan), (1.0, 1.0), ("periodic", "walls")), "has one to three numbers, one an axis"),
     "unknown side": (((0.0, 0.0), (1.0, 1.0), ("periodic", "wall")), "not 'wall'"),
     "a side too few": (((0.0, 0.0), (1.0, 1.0), ("periodic",)), "as many corner coordinates as sides"),
     "velocity of another dimension": (((0.0,), (1.0,), ("walls",), (1.0, 0.0)), "1 components, not 2"),

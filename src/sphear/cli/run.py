@@ -152,6 +152,8 @@ def _summary(metrics: dict[str, Any], table: Table) -> str:
     found = [
         "reference steady"
         if name == "reference_time" and math.isinf(value)
+        else value
+        if isinstance(value, str)
         else f"{name.replace('_', ' ')} {value:.4g}"
         for name, value in metrics.items()
         if name not in shown

@@ -22,7 +22,7 @@ SLACK = 1e-9  # spacings behind a wall, of rounding
 APART = 1e-3  # spacings: nearer are at one place
 STRETCHED = 1.25  # the mean spacing of particles over the given one, at most and inverted at least
 NEAREST = (0.6, 1.4)  # the distance of the nearest, of particles with a free surface; disordered ones have 0.8
-SAMPLES = 100_000  # places at least that tell the area of a shape
+SAMPLES = 10_000  # places at least that tell the area of a shape
 LINKED = 1.6  # spacings: as far is the first attempt at going from particle to particle
 
 
@@ -112,7 +112,7 @@ def _volume(problem: Problem) -> float:
     whole = float(np.prod(np.subtract(window.upper, window.lower)))
     if problem.shape is None:
         return whole
-    step = (whole / max(SAMPLES, 4 * count)) ** (1 / dimension)
+    step = (whole / max(SAMPLES, count)) ** (1 / dimension)
     ticks = [window_ticks(window, axis, step) for axis in range(2)]
     share = np.mean(repeated(problem.shape, window).distance(grid(*ticks)) > 0)
     return float(share) * whole

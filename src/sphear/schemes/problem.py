@@ -79,7 +79,7 @@ class Problem:
         for name in ("spacing", "density", "kinematic_viscosity", "speed", "length"):
             given, least = getattr(self, name), name == "kinematic_viscosity"
             value, said = number(given), f"the {name.replace('_', ' ')} of a problem"
-            if isinstance(given, bool) or not isinstance(given, int | float) and math.isnan(value):
+            if isinstance(given, bool) or (not isinstance(given, int | float) and math.isnan(value)):
                 raise SphearError(f"{said} is one finite number, not {quoted(given)}")
             if not (value >= 0 if least else value > 0):
                 must = "not be negative" if least else "be positive"

@@ -107,11 +107,15 @@ def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str 
     return "the front is at the wall" if found["front"] > settings.tank - 2 * flow.problem.spacing else None
 
 
-def summary(settings: Settings, flow: FlowInTime) -> dict[str, float]:
+def summary(settings: Settings, flow: FlowInTime) -> dict[str, Any]:
     """How far the front is ahead of where the experiment has it, in column widths, where that is known."""
     measured, time = known(settings), flow.time * speed(settings) / WIDTH
-    if measured is None or not measured[0][0] <= time <= measured[0][-1]:
+    if measured is None:
         return {}
+    first, last = measured[0][0], measured[0][-1]
+    if not first <= time <= last:
+        said = f"the front was measured from T = {first:g} to {last:g}, and this is T = {time:.4g}"
+        return {"reference_missing": said}
     return {"front_deviation": metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
 
 
