@@ -29,6 +29,8 @@ LINKED = 1.6  # spacings: as far is the first attempt at going from particle to 
 def check_places(problem: Problem) -> None:
     """Refuse particles behind walls, at one place, or of another spacing than the problem's.
 
+    Whether they fill a shape is asked by `check_filled` when there is known to be room in it.
+
     Raises:
         SphearError: there are such particles.
     """
@@ -36,8 +38,8 @@ def check_places(problem: Problem) -> None:
     tree = tree_of(problem)
     if problem.free_surface:
         _check_nearest(problem, tree)
-    else:
-        _check_volume(problem)
+    elif problem.shape is None:
+        check_filled(problem)
     pairs = tree.query_pairs(APART * problem.spacing, output_type="ndarray")
     if len(pairs):
         first, second = min(map(tuple, pairs.tolist()))
@@ -95,8 +97,12 @@ def _check_walls(problem: Problem) -> None:
         raise SphearError(f"particle {first} at ({_text(x[first])}) starts behind a wall")
 
 
-def _check_volume(problem: Problem) -> None:
-    """Compare the volume of all particles with that of the region that they fill."""
+def check_filled(problem: Problem) -> None:
+    """Compare the volume of all particles with that of the region that they fill.
+
+    Raises:
+        SphearError: they differ, because the spacing is not that of the particles or these leave out a part.
+    """
     count, dimension = problem.positions.shape
     mean = (_volume(problem) / count) ** (1 / dimension)
     if not 1 / STRETCHED <= mean / problem.spacing <= STRETCHED:

@@ -61,7 +61,7 @@ class Compound(Shape):
 
 
 def chosen(feet: list[Foot], tiny: float, sign: float) -> Foot:
-    """Of each point's feet that with the smallest distance, or with the largest if the sign is -1; equal within tiny."""
+    """Of each point the foot with the smallest distance, or the largest if the sign is -1; equal within tiny."""
     distances = sign * np.stack([foot.distance for foot in feet], axis=1)
     best = np.argmin(distances, axis=1)
     rows = np.arange(len(best))

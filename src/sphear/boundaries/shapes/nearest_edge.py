@@ -93,7 +93,7 @@ def _between(first, last, point):  # type: ignore[no-untyped-def]
 
 @compiled
 def crossing(starts, ends):  # type: ignore[no-untyped-def]
-    """The first two edges that meet elsewhere than at the corner they share; (i, i) without length, (-1, -1) if none."""
+    """The first two edges that meet elsewhere than at their shared corner; (i, i) if one has no length, or (-1, -1)."""
     count = len(starts)
     for i in range(count):
         if starts[i, 0] == ends[i, 0] and starts[i, 1] == ends[i, 1]:

@@ -11,6 +11,7 @@ from pydantic import Field
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Rectangle
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
+from sphear.cases.size import check_size
 from sphear.errors import SphearError
 from sphear.references import dam_break as reference
 from sphear.schemes.incompressible.settings import IncompressibleSettings
@@ -48,6 +49,7 @@ def problem(settings: Settings) -> Problem:
     assert isinstance(settings, DamBreakSettings)
     if settings.initial != "lattice":
         raise SphearError(f"the column of dam-break starts from initial=lattice, not from initial={settings.initial}")
+    check_size("resolution", settings.resolution, (1.0, settings.column))
     spacing = WIDTH / settings.resolution
     if settings.column * WIDTH < FEWEST * spacing or settings.resolution < FEWEST:
         raise SphearError(
