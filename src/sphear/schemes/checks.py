@@ -29,7 +29,7 @@ LINKED = 1.6  # spacings: as far is the first attempt at going from particle to 
 def check_places(problem: Problem) -> None:
     """Refuse particles behind walls, at one place, or of another spacing than the problem's.
 
-    Whether they fill a shape is asked by `check_filled` when there is known to be room in it.
+    Whether they fill a shape is asked by `check_shape`, when there is known to be room in it.
 
     Raises:
         SphearError: there are such particles.
@@ -39,7 +39,7 @@ def check_places(problem: Problem) -> None:
     if problem.free_surface:
         _check_nearest(problem, tree)
     elif problem.shape is None:
-        check_filled(problem)
+        _check_volume(problem)
     pairs = tree.query_pairs(APART * problem.spacing, output_type="ndarray")
     if len(pairs):
         first, second = min(map(tuple, pairs.tolist()))
@@ -65,12 +65,13 @@ def check_connected(problem: Problem, reach: float) -> None:
         parts, part = connected_components(links, directed=False)
         if parts == 1:
             return
+    check_shape(problem)  # particles in a wall, or too few of them, are parts as well
     sizes = np.bincount(part)
     first = int(np.flatnonzero(part == np.argmin(sizes))[0])
     raise SphearError(
-        f"the fluid falls into {parts} parts without a common neighbour, the smallest of {sizes.min()} particles at"
-        f" ({_text(problem.positions[first])}), and in {parts - 1} of them nothing fixes the pressure: compute them one"
-        " by one"
+        f"the fluid falls into {parts} parts without a common neighbour, the smallest with {sizes.min()} of {count}"
+        f" particles at ({_text(problem.positions[first])}), and in {parts - 1} of them nothing fixes the pressure:"
+        " compute them one by one"
     )
 
 
@@ -85,24 +86,36 @@ def tree_of(problem: Problem) -> Any:
     return cKDTree(places, boxsize=periods)
 
 
+def check_shape(problem: Problem) -> None:
+    """Refuse particles behind the walls of the problem's shape, and those that do not fill it.
+
+    Raises:
+        SphearError: there are such particles; or the spacing is not theirs.
+    """
+    if problem.shape is None:
+        return
+    distance = repeated(problem.shape, problem.window).distance(problem.positions)
+    _refuse_behind(problem, distance < -SLACK * problem.spacing)
+    if not problem.free_surface:
+        _check_volume(problem)
+
+
 def _check_walls(problem: Problem) -> None:
     x, slack = problem.positions, SLACK * problem.spacing
     behind = np.zeros(len(x), bool)
     for axis in problem.box.wall_axes:
         behind |= (x[:, axis] < problem.box.lower[axis] - slack) | (x[:, axis] > problem.box.upper[axis] + slack)
-    if problem.shape is not None:
-        behind |= repeated(problem.shape, problem.window).distance(x) < -slack
+    _refuse_behind(problem, behind)
+
+
+def _refuse_behind(problem: Problem, behind: Array) -> None:
     if behind.any():
         first = int(np.argmax(behind))
-        raise SphearError(f"particle {first} at ({_text(x[first])}) starts behind a wall")
+        raise SphearError(f"particle {first} at ({_text(problem.positions[first])}) starts behind a wall")
 
 
-def check_filled(problem: Problem) -> None:
-    """Compare the volume of all particles with that of the region that they fill.
-
-    Raises:
-        SphearError: they differ, because the spacing is not that of the particles or these leave out a part.
-    """
+def _check_volume(problem: Problem) -> None:
+    """Compare the volume of all particles with that of the region that they fill."""
     count, dimension = problem.positions.shape
     mean = (_volume(problem) / count) ** (1 / dimension)
     if not 1 / STRETCHED <= mean / problem.spacing <= STRETCHED:

@@ -8,7 +8,7 @@ import numpy as np
 
 from sphear.boundaries.shapes import Shape
 from sphear.schemes.base import FlowFailure
-from sphear.schemes.checks import check_filled
+from sphear.schemes.checks import check_shape
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -26,13 +26,12 @@ class Guard:
         region: of fluid; None without walls.
 
     Raises:
-        SphearError: the particles do not fill the region.
+        SphearError: the particles are behind walls, or do not fill the region.
     """
 
     def __init__(self, problem: Problem, region: Shape | None) -> None:
         self.problem, self.region = problem, region
-        if problem.shape is not None and not problem.free_surface:
-            check_filled(problem)
+        check_shape(problem)
 
     def check_speed(self, time: float, x: Array, velocities: Array) -> None:
         """End a flow that is far too fast.
