@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+LONGEST = 80  # characters of what a message quotes
+ENDING = 20  # of these at its end
+WHOLE = 1200  # characters of a message
+
 
 class SphearError(ValueError):
     """A mistake in the input; the message is one sentence, shown by the command line without a traceback."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(shortened(message, WHOLE))
 
 
 class TooFewNeighboursError(SphearError):
@@ -25,3 +32,17 @@ class Interrupted(Exception):
     def __init__(self, sentence: str, status: int = 130) -> None:
         super().__init__(sentence)
         self.status = status
+
+
+def quoted(value: object) -> str:
+    """The value as Python writes it, on one line and shortened where it is long, to be quoted by a message."""
+    try:
+        text = repr(value[: WHOLE + 1] + value[-ENDING:] if isinstance(value, str) and len(value) > WHOLE else value)
+    except (ValueError, TypeError, AttributeError, RecursionError):  # of a whole number with thousands of digits, say
+        return f"a value of the type {type(value).__name__}"
+    return shortened(" ".join(text.split()) if not isinstance(value, str) else text)
+
+
+def shortened(text: str, longest: int = LONGEST) -> str:
+    """The text itself, or its beginning and end if it has more characters than `longest`."""
+    return text if len(text) <= longest else f"{text[: longest - ENDING - 3]}...{text[-ENDING:]}"

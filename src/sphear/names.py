@@ -6,17 +6,36 @@ import difflib
 from collections.abc import Iterable, Iterator
 from typing import Generic, TypeVar
 
-from sphear.errors import SphearError
+from sphear.errors import LONGEST, SphearError, quoted
 
 T = TypeVar("T")
 
 
-def unknown(kind: str, name: object, valid: Iterable[str], aliases: Iterable[str] = ()) -> SphearError:
-    """The error for a name that does not exist, with the nearest valid ones (aliases too) first."""
+def unknown(kind: str, name: object, valid: Iterable[str], aliases: Iterable[str] = (), key: str = "") -> SphearError:
+    """The error for a name that does not exist, with the nearest valid ones (aliases too) first.
+
+    Args:
+        kind: of what has names.
+        name: as it was given.
+        valid: the names that there are.
+        aliases: other names of these.
+        key: the setting that was given it, where that is called otherwise than the kind.
+    """
     valid = list(valid)
-    near = difflib.get_close_matches(str(name).lower(), list(dict.fromkeys((*valid, *aliases))), n=3, cutoff=0.5)
-    hint = f"did you mean {' or '.join(near)}? " if near else ""
-    return SphearError(f"there is no {kind} named {str(name)!r}: {hint}{kind} is one of {', '.join(valid)}")
+    spellings: dict[str, str] = {}  # one for all that differ in case, hyphens and underscores: the first
+    for known in (*valid, *aliases):
+        spellings.setdefault(plain(known), known)
+    near = difflib.get_close_matches(plain(name)[:LONGEST], list(spellings), n=3, cutoff=0.5)
+    hint = f"did you mean {' or '.join(spellings[found] for found in near)}? " if near else ""
+    where = f"{key} is to be a {kind}, and " if key else ""
+    return SphearError(
+        f"{where}there is no {kind} named {quoted(str(name))}: {hint}{kind} is one of {', '.join(valid)}"
+    )
+
+
+def plain(name: object) -> str:
+    """A name whatever the case, with '-' and ' ' read as '_'."""
+    return str(name).strip().lower().replace("-", "_").replace(" ", "_")
 
 
 class Registry(Generic[T]):
@@ -47,12 +66,20 @@ class Registry(Generic[T]):
         del self._items[name], self._given[name]
         self._aliases = {alias: of for alias, of in self._aliases.items() if of != name}
 
-    def name(self, name: str) -> str:
-        """The registered name behind a name or an alias; raises SphearError with the nearest names."""
+    def name(self, name: str, key: str = "") -> str:
+        """The registered name behind a name or an alias.
+
+        Args:
+            name: as it was given.
+            key: the setting that was given it, where that is called otherwise than the kind.
+
+        Raises:
+            SphearError: there is none, with the nearest names.
+        """
         try:
             return self._aliases[self._plain(name)]
         except KeyError:
-            raise unknown(self.kind, name, self._items, self._aliases) from None
+            raise unknown(self.kind, name, self._items, self._aliases, key) from None
 
     def __getitem__(self, name: str) -> T:
         return self._items[self.name(name)]
@@ -63,6 +90,4 @@ class Registry(Generic[T]):
     def __len__(self) -> int:
         return len(self._items)
 
-    @staticmethod
-    def _plain(name: str) -> str:
-        return str(name).strip().lower().replace("-", "_").replace(" ", "_")
+    _plain = staticmethod(plain)

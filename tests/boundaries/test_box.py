@@ -148,9 +148,30 @@ WRONG: dict[str, tuple[tuple[Any, ...], str]] = {
     "upside down": (((0.0, 1.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "flat": (((0.0, 0.0), (1.0, 0.0), ("periodic", "walls")), "beyond the lower one"),
     "infinite": (((0.0, 0.0), (1.0, np.inf), ("periodic", "walls")), "beyond the lower one"),
-    "not a number": (((0.0, np.nan), (1.0, 1.0), ("periodic", "walls")), "beyond the lower one"),
+    "not a number": (((0.0, np.nan), (1.0, 1.0), ("periodic", "walls")), "has one to three numbers, one an axis"),
     "unknown side": (((0.0, 0.0), (1.0, 1.0), ("periodic", "wall")), "not 'wall'"),
     "a side too few": (((0.0, 0.0), (1.0, 1.0), ("periodic",)), "as many corner coordinates as sides"),
+    "no corner": (("ab", (1.0, 1.0), ("periodic", "walls")), "the lower corner of a box has one to three numbers"),
+    "tiny": (((0.0, 0.0), (1.0, 1e-100), ("periodic", "walls")), "from 1e-50 to 1e\\+50 long"),
+    "one word": (((0.0, 0.0), (1.0, 1.0), "walls"), "given one an axis"),
+    "lid through itself": (
+        ((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), (), (0.0, 1.0)),
+        "upper wall of a box, across the axis y, would move through itself",
+    ),
+    "side through itself": (
+        ((0.0, 0.0), (1.0, 1.0), ("walls", "periodic"), (0.5, 0.0)),
+        "lower wall of a box, across the axis x, would move through itself",
+    ),
+    "lid of a solid box through itself": (
+        ((0.0,) * 3, (1.0,) * 3, ("walls", "periodic", "walls"), (), (1.0, 0.0, 1e-9)),
+        "across the axis z, would move through itself",
+    ),
+    "line through itself": (((0.0,), (1.0,), ("walls",), (1.0,)), "across the axis x, would move through itself"),
+    "wall velocity without walls": (
+        ((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"), (), (1.0, 0.0)),
+        "this box has none",
+    ),
+    "velocity that is none": (((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"), (), (1.0, np.nan)), "2 finite numbers"),
     "velocity of another dimension": (((0.0,), (1.0,), ("walls",), (1.0, 0.0)), "1 components, not 2"),
 }
 

@@ -8,13 +8,15 @@ from typing import Any, Literal
 
 import numpy as np
 
+from sphear.checked import numbers
 from sphear.engine.cache import compiled
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 
 Array = np.ndarray[Any, Any]
 Side = Literal["periodic", "walls"]
 
 PERIODIC, MIRRORS, OPEN = 0, 1, 2
+LEAST_LENGTH, LARGEST_LENGTH = 1e-50, 1e50
 ON_WALL = 64  # the bit of entries that stand on a wall
 
 
@@ -40,6 +42,18 @@ class Box:
     upper_velocity: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
+        for name in ("lower", "upper"):
+            corner = getattr(self, name)
+            if not 1 <= len(found := numbers(corner, finite=False)) <= 3:
+                raise SphearError(
+                    f"the {name} corner of a box has one to three numbers, one an axis, not {quoted(corner)}"
+                )
+            object.__setattr__(self, name, found)
+        if isinstance(self.sides, str) or not hasattr(self.sides, "__len__"):
+            raise SphearError(
+                f"the sides of a box are given one an axis, as in ('periodic', 'walls'), not {quoted(self.sides)}"
+            )
+        object.__setattr__(self, "sides", tuple(self.sides))
         dimension = len(self.lower)
         if not len(self.upper) == len(self.sides) == dimension:
             raise SphearError(
@@ -48,12 +62,42 @@ class Box:
             )
         if not all(-inf < low < high < inf for low, high in zip(self.lower, self.upper, strict=True)):
             raise SphearError(f"the upper corner of a box lies beyond the lower one, not {self.upper} and {self.lower}")
+        extents = [high - low for low, high in zip(self.lower, self.upper, strict=True)]
+        if not LEAST_LENGTH <= min(extents) <= max(extents) <= LARGEST_LENGTH:
+            raise SphearError(
+                f"the sides of a box are from {LEAST_LENGTH:g} to {LARGEST_LENGTH:g} long, or powers of them vanish or"
+                f" overflow, not {' and '.join(f'{extent:g}' for extent in extents)}"
+            )
         for side in self.sides:
             if side not in ("periodic", "walls"):
-                raise SphearError(f"the sides of a box are 'periodic' or 'walls', not {side!r}")
-        for velocity in (self.lower_velocity, self.upper_velocity):
-            if velocity and len(velocity) != dimension:
-                raise SphearError(f"the velocity of a wall has {dimension} components, not {len(velocity)}")
+                raise SphearError(f"the sides of a box are 'periodic' or 'walls', not {quoted(side)}")
+        for name in ("lower", "upper"):
+            object.__setattr__(self, f"{name}_velocity", self._wall_velocity(name))
+
+    def _wall_velocity(self, name: str) -> tuple[float, ...]:
+        """The velocity of a wall, checked."""
+        velocity = getattr(self, f"{name}_velocity")
+        if isinstance(velocity, tuple | list) and not len(velocity):
+            return ()
+        found, dimension = numbers(velocity), len(self.lower)
+        if hasattr(velocity, "__len__") and not isinstance(velocity, str) and len(velocity) != dimension:
+            raise SphearError(f"the velocity of a wall has {dimension} components, not {len(velocity)}")
+        if not found:
+            raise SphearError(f"the velocity of a wall has {dimension} finite numbers, not {quoted(velocity)}")
+        if not any(found):
+            return found
+        if not self.wall_axes:
+            raise SphearError(
+                f"the {name} velocity of a box is that of a wall, and this box has none: {quoted(velocity)} would move"
+                " nothing"
+            )
+        axis = self.wall_axes[-1]
+        if found[axis]:
+            raise SphearError(
+                f"the {name} wall of a box, across the axis {'xyz'[axis]}, would move through itself at"
+                f" {quoted(velocity)}: a wall may move only along itself"
+            )
+        return found
 
     @property
     def periodic(self) -> tuple[bool, ...]:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sphear.cases.nodes import OPERATIONS, Node, folded, simplified
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 
 COORDINATES = ("x", "y", "z")
 MAX_LENGTH = 4000  # characters
@@ -139,7 +139,9 @@ class Expression:
         """The partial derivative by the coordinate `name`; raises SphearError if this dimension has no such one."""
         names = COORDINATES[: self.dimension]
         if name not in names:
-            raise SphearError(f"there is no derivative by {name!r} in {self.dimension}-D, only by {', '.join(names)}")
+            raise SphearError(
+                f"there is no derivative by {quoted(name)} in {self.dimension}-D, only by {', '.join(names)}"
+            )
         return Expression(derivative(self.root, name), self.dimension)
 
     def gradient(self) -> tuple[Expression, ...]:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from sphear.cases.size import check_count
 from sphear.errors import SphearError
 
 Array = np.ndarray[Any, Any]
@@ -56,6 +57,7 @@ def lattice(intervals: int, dimension: int, *, layers: int = 0, jitter: float = 
         raise SphearError(
             f"{intervals} intervals a side, with {layers} beyond each edge, are too many for a lattice in {dimension}-D"
         )
+    check_count(count, f"a lattice of {intervals} intervals a side", dimension, "a size", intervals)
     spacing = 1.0 / intervals
     ticks = np.arange(-layers, intervals + layers + 1, dtype=np.int32)
     depth = np.minimum(ticks, intervals - ticks)

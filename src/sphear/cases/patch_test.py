@@ -15,7 +15,7 @@ from sphear.cases.fields import field as scalar_field
 from sphear.cases.lattice import Lattice, lattice
 from sphear.cases.stream import stream_velocity
 from sphear.engine.threads import thread_count
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.operators import Particles, arguments
 from sphear.operators.particles import needing_neighbours, too_few_neighbours
 from sphear.viscosity import VISCOSITY, ViscousTerm
@@ -146,7 +146,7 @@ class PatchTest(BaseModel):
         lacking = np.isnan(result).any(axis=1)
         needs_neighbours = term.own_correction or correction.name != "none"
         if np.isinf(result).any() or (lacking.any() and not needs_neighbours):
-            raise SphearError(f"the sums over field {self.field!r} are too large for {self.precision} numbers")
+            raise SphearError(f"the sums over field {quoted(self.field)} are too large for {self.precision} numbers")
         if lacking.all() or (lacking.any() and self.fallback is None):
             what = needing_neighbours(term, correction)
             raise too_few_neighbours(

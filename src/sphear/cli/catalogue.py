@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 from typing import Any
 
-from sphear.names import unknown
+from sphear.names import plain, unknown
 
 KINDS = ("kernels", "viscosity", "corrections", "preconditioners", "studies", "cases")
 _SINGULAR = {
@@ -121,9 +121,10 @@ def _described_study(name: str) -> dict[str, Any]:
 
 
 def _described_case(name: str) -> dict[str, Any]:
-    name = name.replace("_", "-")
-    if name not in CASES:
+    known = {plain(case): case for case in CASES}
+    if plain(name) not in known:
         raise unknown("case", name, CASES)
+    name = known[plain(name)]
     if name != "patch-test":
         from sphear.cases.flow import FLOWS
 

@@ -8,7 +8,7 @@ import typer
 
 from sphear.checked import checked
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.versions import versions
 
 if TYPE_CHECKING:
@@ -64,7 +64,9 @@ def _sizes(text: str) -> tuple[int, ...]:
     try:
         sizes = tuple(int(part) for part in text.split(","))
     except ValueError:
-        raise SphearError(f"sizes must be whole numbers separated by commas, such as 20,40, not {text!r}") from None
+        raise SphearError(
+            f"sizes must be whole numbers separated by commas, such as 20,40, not {quoted(text)}"
+        ) from None
     if min(sizes) < 1:
         raise SphearError(f"sizes must be positive, not {min(sizes)}")
     return sizes

@@ -50,7 +50,7 @@ def run(
     from sphear.cases.flow.chosen import flow_settings
 
     files = folder(out)
-    chosen = FLOWS[case.replace("_", "-")]
+    chosen = FLOWS[case]
     given = {
         "viscosity": viscosity, "correction": correction, "reynolds": reynolds, "resolution": resolution,
         "until": until, "scheme": scheme, "force": force or None,
@@ -149,6 +149,8 @@ def _summary(metrics: dict[str, Any], table: Table) -> str:
     found = [
         "reference steady"
         if name == "reference_time" and math.isinf(value)
+        else value
+        if isinstance(value, str)
         else f"{name.replace('_', ' ')} {value:.4g}"
         for name, value in metrics.items()
         if name not in shown

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted, shortened
 
 
 def key_and_value(option: str, text: str, example: str) -> tuple[str, str]:
@@ -16,7 +16,7 @@ def key_and_value(option: str, text: str, example: str) -> tuple[str, str]:
     key, equals, value = text.partition("=")
     if not equals:
         form = "KEY=V1,V2,..." if "," in example else "KEY=VALUE"
-        raise SphearError(f"{option} takes {form}, such as {option} {example}, not {text!r}")
+        raise SphearError(f"{option} takes {form}, such as {option} {example}, not {quoted(text)}")
     return key.strip().replace("-", "_"), value.strip()
 
 
@@ -30,7 +30,8 @@ def changes(texts: Iterable[str]) -> dict[str, str]:
     for text in texts:
         key, value = key_and_value("--set", text, "kernel=wendland_c2")
         if key in found:
-            raise SphearError(f"--set {key} is given twice, as {found[key]} and as {value}: choose one")
+            both = f"as {shortened(found[key])} and as {shortened(value)}"
+            raise SphearError(f"--set {shortened(key)} is given twice, {both}: choose one")
         found[key] = value
     return found
 
@@ -44,11 +45,13 @@ def choices(texts: Iterable[str]) -> dict[str, list[str]]:
     over: dict[str, list[str]] = {}
     for text in texts:
         key, values = key_and_value("--over", text, "resolution=10,20,40")
+        said = shortened(key)
         if key in over:
-            raise SphearError(f"--over {key} is given twice: write all its values into one, separated by commas")
+            raise SphearError(f"--over {said} is given twice: write all its values into one, separated by commas")
         over[key] = [value.strip() for value in _split(values)]
         if not all(over[key]):
-            raise SphearError(f"--over {key} needs values separated by commas, such as {key}=V1,V2, not {values!r}")
+            example = f"such as {said}=V1,V2, not {quoted(values)}"
+            raise SphearError(f"--over {said} needs values separated by commas, {example}")
     return over
 
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 from numbers import Integral
 from typing import TypeVar
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 
 S = TypeVar("S")
 T = TypeVar("T")
@@ -22,7 +22,7 @@ def thread_count(threads: int | None, particles: int) -> int:
     if threads is None:
         return max(1, min(_processors(), particles // WORTH_A_THREAD))
     if not isinstance(threads, Integral) or threads < 1:
-        raise SphearError(f"threads must be a whole number of at least 1, not {threads!r}")
+        raise SphearError(f"threads must be a whole number of at least 1, not {quoted(threads)}")
     return int(threads)
 
 

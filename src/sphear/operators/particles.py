@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -15,10 +16,14 @@ from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
 from sphear.operators.pipeline import Operation, run
-from sphear.viscosity import ViscousTerm, uncorrected
+from sphear.viscosity import ViscousTerm, uncorrected, with_varying_viscosity
 
 Array = np.ndarray[Any, Any]
 Fallback = Literal["uncorrected", "nan"]
+
+
+def _as_it_is(term: ViscousTerm) -> ViscousTerm:
+    return term
 
 
 def needing_neighbours(term: ViscousTerm, correction: Correction) -> str:
@@ -121,7 +126,10 @@ class Particles:
     ) -> Array:
         """(1/rho) div tau, (N, d)."""
         fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
-        return self._apply(term, correction, fields, fallback, "acceleration_stages")
+        # one that is constant asks for no neighbour's
+        varies = bool((dynamic_viscosity != dynamic_viscosity[:1]).any())
+        adapted = with_varying_viscosity if varies else _as_it_is
+        return self._apply(term, correction, fields, fallback, "acceleration_stages", adapted)
 
     def gradient(
         self, values: Array, correction: Correction, of_differences: bool = True, fallback: Fallback | None = None
@@ -135,10 +143,16 @@ class Particles:
         return self.applied(operation(correction), operation(NoCorrection()), {"values": values}, fallback, what)
 
     def _apply(
-        self, term: ViscousTerm, correction: Correction, fields: dict[str, Array], fallback: Any, stages: str
+        self,
+        term: ViscousTerm,
+        correction: Correction,
+        fields: dict[str, Array],
+        fallback: Any,
+        stages: str,
+        adapted: Callable[[ViscousTerm], ViscousTerm] = _as_it_is,
     ) -> Array:
         def operation(t: ViscousTerm, c: Correction) -> Operation:
-            return Operation(getattr(t, stages)(self.kernel, c), t.preparation(self.kernel, c))
+            return Operation(getattr(adapted(t), stages)(self.kernel, c), t.preparation(self.kernel, c))
 
         what = needing_neighbours(term, correction)
         return self.applied(operation(term, correction), operation(*uncorrected(term)), fields, fallback, what)

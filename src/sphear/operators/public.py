@@ -96,8 +96,9 @@ def viscous_acceleration(
         dynamic_viscosity: mu, one number or (N,), in units of density times length squared over time; kinematic
             viscosity nu is given as mu = nu rho.
         density: rho, one number or (N,).
-        viscosity: name, alias or object of any viscous term; one whose source has no rule for a viscosity that varies
-            takes that of the particle itself.
+        viscosity: name, alias or object of any viscous term. Where the viscosity varies, terms differ in how much of
+            div(mu grad u) + (grad u)^T grad mu they have; their cards say it. Terms that are a Laplacian of each
+            component have the first part, by the mean viscosity of two particles; `takeda` is refused.
         kernel, h_over_dx, spacing, correction, volumes, domain, fallback, precision, threads: as in `laplacian`.
 
     Returns:

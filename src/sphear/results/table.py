@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -34,7 +35,7 @@ class Column:
 
     def text(self, value: object) -> str:
         """Return a value as a paper prints it: 5.00e-5, not 5.00e-05."""
-        if value is None:
+        if value is None or (isinstance(value, float) and math.isnan(value)):
             return ABSENT
         if isinstance(value, str) or not self.format:
             return str(value)

@@ -9,6 +9,7 @@ import numpy as np
 
 from sphear.errors import SphearError
 from sphear.names import unknown
+from sphear.schemes.checks import check_connected, check_places
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.settings import FlowSettings
 
@@ -125,13 +126,14 @@ def flow_in_time(problem: Problem, settings: Settings) -> FlowInTime:
 
 
 def check_start(problem: Problem) -> None:
-    """Refuse a start without particles, or with places or velocities that are no numbers."""
+    """Refuse a start without particles, with places or velocities that are no numbers, or places that cannot be."""
     if not len(problem.positions):
         raise SphearError("the problem has no particles")
     for what, values in (("position", problem.positions), ("velocity", problem.velocities)):
         wrong = np.flatnonzero(~np.isfinite(values).all(axis=1))
         if len(wrong):
             raise SphearError(f"the initial {what} of particle {wrong[0]} is not a number: {values[wrong[0]]}")
+    check_places(problem)
 
 
 def check_state(state: Mapping[str, Array], own: Mapping[str, Array]) -> None:
@@ -142,7 +144,7 @@ def check_state(state: Mapping[str, Array], own: Mapping[str, Array]) -> None:
 
 
 def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
-    """Refuse a kernel that reaches no neighbour, or further than a period."""
+    """Refuse a kernel that reaches no neighbour, or further than a period, or not from part to part of the fluid."""
     if kernel.radius <= problem.spacing:
         raise SphearError(
             f"the setting h_over_dx must be more than {kernel.h / kernel.radius:.4g} for {kernel.name}, or no particle"
@@ -154,6 +156,8 @@ def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
                 f"the resolution of {resolution} is too coarse: the kernel's support of {kernel.radius:g} reaches"
                 f" beyond the period of {high - low:g}"
             )
+    if problem.shape is not None and not problem.free_surface:
+        check_connected(problem, kernel.radius)
 
 
 def chosen_time_step(limits: dict[str, float], settings: Settings) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from sphear.engine.flags import options_text
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 
 INTEGRATORS = ("midpoint", "kick_drift_kick")
 
@@ -157,7 +157,7 @@ def integrator_text(name: str, roles: tuple[str, ...]) -> str:
         SphearError: there is no integrator of this name.
     """
     if name not in INTEGRATORS:
-        raise SphearError(f"an integrator is one of {', '.join(INTEGRATORS)}, not {name!r}")
+        raise SphearError(f"an integrator is one of {', '.join(INTEGRATORS)}, not {quoted(name)}")
     scalars = [role for role in ("density", "energy") if role in roles]
 
     def lines(template: str, indent: int) -> str:

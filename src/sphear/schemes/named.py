@@ -34,4 +34,10 @@ def named(settings: Chosen) -> Chosen:
         SphearError: something has no such name.
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
-    return settings.model_copy(update={key: REGISTRIES[key].name(value) for key, value in given.items()})
+    names = {key: REGISTRIES[key].name(value, _said(key)) for key, value in given.items()}
+    return settings.model_copy(update=names)
+
+
+def _said(key: str) -> str:
+    """The setting, where an error would not name it by what it takes."""
+    return "" if REGISTRIES[key].kind == key.replace("_", " ") else f"the setting {key}"

@@ -10,13 +10,17 @@ from typing import Any
 import numpy as np
 
 from sphear.boundaries import Box
+from sphear.boundaries.box import LARGEST_LENGTH, LEAST_LENGTH
 from sphear.boundaries.shapes import Shape
-from sphear.errors import SphearError
+from sphear.checked import number, numbers, real_array
+from sphear.errors import SphearError, quoted
 from sphear.neighbours import Domain
 
 Array = np.ndarray[Any, Any]
 
 DENSITY_VARIATION = 0.01
+MOST_MOVED = 0.63  # spacings a step, at the expected speed: as far as the CFL condition allows at the usual h / dx
+LENGTHS, SIZES = (LEAST_LENGTH, LARGEST_LENGTH), (1e-150, 1e150)
 
 
 @dataclass(frozen=True)
@@ -60,20 +64,40 @@ class Problem:
                 f"a problem has a velocity for each position, and these are {self.velocities.shape} and"
                 f" {self.positions.shape}"
             )
+        if not isinstance(self.box, Box):
+            raise SphearError(f"the box of a problem is a Box, not {quoted(self.box)}")
         if self.positions.shape[1] != len(self.box.lower):
             raise SphearError(
                 f"the positions of a problem have {self.positions.shape[1]} coordinates and its box has"
                 f" {len(self.box.lower)}"
             )
-        if np.shape(self.body_force) != (len(self.box.lower),) or not np.isfinite(self.body_force).all():
+        if len(force := numbers(self.body_force)) != len(self.box.lower):
             raise SphearError(
-                f"the body force of a problem has {len(self.box.lower)} finite numbers, not {self.body_force!r}"
+                f"the body force of a problem has {len(self.box.lower)} finite numbers, not {quoted(self.body_force)}"
             )
+        object.__setattr__(self, "body_force", force)
         for name in ("spacing", "density", "kinematic_viscosity", "speed", "length"):
-            value, least = getattr(self, name), name == "kinematic_viscosity"
-            if not (0 <= value < math.inf if least else 0 < value < math.inf):
+            given, least = getattr(self, name), name == "kinematic_viscosity"
+            value, said = number(given), f"the {name.replace('_', ' ')} of a problem"
+            if isinstance(given, bool) or (not isinstance(given, int | float) and math.isnan(value)):
+                raise SphearError(f"{said} is one finite number, not {quoted(given)}")
+            if not (value >= 0 if least else value > 0):
                 must = "not be negative" if least else "be positive"
-                raise SphearError(f"the {name.replace('_', ' ')} of a problem must {must}, not {value}")
+                raise SphearError(f"{said} must {must}, not {quoted(given) if math.isnan(value) else value}")
+            low, high = LENGTHS if name in ("spacing", "length") else SIZES
+            if value and not low <= value <= high:
+                raise SphearError(
+                    f"{said} is from {low:g} to {high:g}, or powers of it vanish or overflow, not {value:g}"
+                )
+            object.__setattr__(self, name, value)
+        if not (self.shape is None or isinstance(self.shape, Shape)):
+            raise SphearError(
+                f"the shape of a problem is a shape of sphear.boundaries.shapes, not {quoted(self.shape)}"
+            )
+        if not (self.force is None or callable(self.force)):
+            raise SphearError(f"the force of a problem is a function of places and a time, not {quoted(self.force)}")
+        if not isinstance(self.free_surface, bool | np.bool_):
+            raise SphearError(f"the free surface of a problem is True or False, not {quoted(self.free_surface)}")
 
     @property
     def periodic(self) -> tuple[bool, ...]:
@@ -93,6 +117,9 @@ class Problem:
     def time_step_limits(self, h: float, sound_speed: float, radial: bool = False) -> dict[str, float]:
         """The time steps that the CFL, viscous and body-force conditions allow (Morris, Fox & Zhu 1997).
 
+        Beside them no particle moves more than `MOST_MOVED` spacings a step, which matters where smoothing lengths
+        are long.
+
         Args:
             h: the smoothing length.
             sound_speed: at rest.
@@ -102,6 +129,7 @@ class Problem:
         force, nu = math.hypot(*self.body_force), self.kinematic_viscosity
         return {
             "cfl": 0.25 * h / (sound_speed + self.speed),
+            "spacing": MOST_MOVED * self.spacing / self.speed,
             "viscous": (1 / 12 if radial else 1 / 8) * h**2 / nu if nu > 0 else math.inf,
             "body_force": 0.25 * math.sqrt(h / force) if force > 0 else math.inf,
         }
@@ -109,10 +137,20 @@ class Problem:
 
 def _vectors(what: str, given: Any) -> Array:
     """The places or velocities of particles as an array (N, d)."""
-    found = np.asarray(given)
-    if found.ndim != 2 or not np.issubdtype(found.dtype, np.number):
+    found = real_array(given)
+    if found is None:
+        raise SphearError(
+            f"the {what} of a problem are numbers of shape (N, d), real and none of them masked, which this"
+            f" {type(given).__name__}{_kind(given)} is not"
+        )
+    if found.ndim != 2:
         raise SphearError(f"the {what} of a problem are numbers of shape (N, d), not of shape {found.shape}")
     return found
+
+
+def _kind(given: Any) -> str:
+    """The type of the numbers of an array."""
+    return f" of {given.dtype}" if isinstance(given, np.ndarray) else ""
 
 
 def morris_sound_speed(problem: Problem) -> float:

@@ -15,6 +15,7 @@ from sphear.viscosity.oger import Oger
 from sphear.viscosity.schwaiger import Schwaiger
 from sphear.viscosity.takeda import Takeda
 from sphear.viscosity.two_pass import TwoPass
+from sphear.viscosity.varying import with_varying_viscosity
 from sphear.viscosity.violeau import Violeau
 
 VISCOSITY: Registry[ViscousTerm] = Registry("viscosity")
@@ -56,4 +57,5 @@ __all__ = [
     "Violeau",
     "ViscousTerm",
     "uncorrected",
+    "with_varying_viscosity",
 ]

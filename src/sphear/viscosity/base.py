@@ -17,6 +17,9 @@ from sphear.kernels import Kernel
 class ViscousTerm:
     """A published way to compute the viscous acceleration (1/rho) div tau from particles.
 
+    Where the viscosity varies div tau is div(2 mu D) = div(mu grad u) + (grad u)^T grad mu of a flow that is free of
+    divergence; `where_it_varies` says what of it the term has, `viscosity/varying.py` what one without a rule does.
+
     In its formulas a particle has the attributes `velocity`, `volume`, `density` and `dynamic_viscosity`, and `own`
     has, as `prepared`, what `preparation` has summed up for it.
     """
@@ -29,6 +32,7 @@ class ViscousTerm:
     own_correction: ClassVar[bool] = False  # carries a correction of its own and takes no other
     uses_second_derivatives: ClassVar[bool] = False
     varies_viscosity: ClassVar[bool] = False  # the formula has a rule for a viscosity that varies in space
+    where_it_varies: ClassVar[str] = ""  # the limit of that rule, where the flow is free of divergence
 
     def __post_init__(self) -> None:
         eta = getattr(self, "eta", None)

@@ -30,6 +30,7 @@ class Card:
     formula: str
     source: str
     acts_on: str
+    where_it_varies: str
     correction: str
     properties: dict[str, Any]
 
@@ -40,6 +41,7 @@ class Card:
             "formula": self.formula,
             "source": self.source,
             "acts_on": self.acts_on,
+            "where_viscosity_varies": self.where_it_varies,
             "correction": self.correction,
             **self.properties,
         }
@@ -52,6 +54,7 @@ class Card:
             f"  source           {self.source}",
             f"  aliases          {', '.join(self.aliases) or 'none'}",
             f"  acts on          {self.acts_on}",
+            f"  where mu varies  {self.where_it_varies}",
             f"  corrections      {self.correction}",
         ]
         if self.properties:
@@ -73,6 +76,17 @@ class Card:
         ]
 
 
+def _where_it_varies(term: ViscousTerm) -> str:
+    """What a term's limit is where the viscosity varies."""
+    from sphear.viscosity.varying import MeanViscosity, takes_mean
+
+    if term.varies_viscosity:
+        return term.where_it_varies or "as its formula says"
+    if takes_mean(term):
+        return f"{MeanViscosity.where_it_varies}, by (mu_i + mu_j) / 2 for mu_i"
+    return "refused"
+
+
 def card(term: ViscousTerm | None, name: str | None = None) -> Card:
     """The card of a term; of the named one where none is given.
 
@@ -92,6 +106,7 @@ def card(term: ViscousTerm | None, name: str | None = None) -> Card:
         formula=term.formula,
         source=term.source,
         acts_on="velocities" if term.radial else "velocities, and scalar fields as the Laplacian of each component",
+        where_it_varies=_where_it_varies(term),
         correction="its own; takes no other" if term.own_correction else "none, shepard, bonet_lok, renormalised",
         properties=measured().get(known, {}) if known else {},
     )

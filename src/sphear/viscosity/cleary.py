@@ -37,6 +37,7 @@ class Cleary(ViscousTerm):
     source = "Cleary 1998; Basa, Quinlan & Lastiwka 2009, eq. 34 (model D)"
     radial = True
     varies_viscosity = True
+    where_it_varies = "div(mu grad u) + (grad u)^T grad mu"
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -35,6 +35,7 @@ class EspanolRevenga(ViscousTerm):
     source = "Español & Revenga 2003, Smoothed dissipative particle dynamics, Phys. Rev. E 67:026705, eq. 58"
     radial = True
     varies_viscosity = True
+    where_it_varies = "div(mu grad u) + (grad u)^T grad mu / 6"
 
     def __post_init__(self) -> None:
         super().__post_init__()

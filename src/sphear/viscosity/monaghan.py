@@ -43,6 +43,7 @@ class Monaghan(ViscousTerm):
     source = "Monaghan & Gingold 1983; Basa, Quinlan & Lastiwka 2009, eqs. 31, 32"
     radial = True
     varies_viscosity = True
+    where_it_varies = "div(mu grad u) + (grad u)^T grad mu, of half of the pairs"
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -31,6 +31,7 @@ class Morris(LaplacianTerm):
         "Zheng, Ma & Shao 2018, eq. 15 (VISC-01)"
     )
     varies_viscosity = True
+    where_it_varies = "div(mu grad u)"
 
     def weight(self, kernel: Kernel, correction: Correction, own: Any, d: Vector, r2: Scalar) -> Scalar:
         """w_ij = -2 (r_ij . grad W_ij) / (r_ij^2 + eta^2)."""

@@ -50,6 +50,7 @@ class TwoPass(LaplacianTerm):
     formula = "1 / rho_i sum_j V_j tau_j grad W_ij, tau_j from grad u_j = sum_k V_k u_k (x) grad W_jk"
     source = "Flebbe et al. 1994; Watkins et al. 1996; Basa, Quinlan & Lastiwka 2009, eqs. 5, 29 (model B)"
     varies_viscosity = True
+    where_it_varies = "div(mu grad u) + (grad u)^T grad mu"
 
     def laplacian_stages(self, kernel: Kernel, correction: Correction) -> tuple[Interaction, ...]:
         """The gradient of each component, then its divergence."""

@@ -31,6 +31,7 @@ class Violeau(ViscousTerm):
     source = "Violeau & Issa 2007; Basa, Quinlan & Lastiwka 2009, eq. 33 (model C)"
     radial = True
     varies_viscosity = True
+    where_it_varies = "div(mu grad u) + (grad u)^T grad mu"
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar

@@ -121,7 +121,8 @@ def test_a_start_that_is_no_number(what: float) -> None:
 
 
 def test_the_explicit_scheme_knows_no_shapes() -> None:
-    flow = in_a_tank(20, shape=Circle((0.5, 0.5), 0.4), at=np.full((1, 2), 0.5))
+    drum = Circle((0.5, 0.5), 0.4)
+    flow = in_a_tank(20, shape=drum, at=fluid_lattice(drum, 1 / 20, UNIT))
     with pytest.raises(SphearError, match="walls of boxes only: take scheme=incompressible"):
         flow_in_time(flow.problem, FlowSettings())
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.neighbours.domain import Domain
 
 Array = np.ndarray[Any, Any]
@@ -150,7 +150,9 @@ def plane_vector(what: str, value: object, finite: bool = True) -> Vector:
             pass
         else:
             return x, y
-    raise SphearError(f"shapes lie in the plane: {what} has two{' finite' if finite else ''} numbers, not {value!r}")
+    raise SphearError(
+        f"shapes lie in the plane: {what} has two{' finite' if finite else ''} numbers, not {quoted(value)}"
+    )
 
 
 def number(what: str, value: object, finite: bool = True) -> float:
@@ -162,7 +164,7 @@ def number(what: str, value: object, finite: bool = True) -> float:
             found = nan
         if isfinite(found) or (not finite and found == found):
             return found
-    raise SphearError(f"{what} is a finite number, not {value!r}")
+    raise SphearError(f"{what} is a finite number, not {quoted(value)}")
 
 
 def text(vector: Sequence[float]) -> str:
@@ -178,7 +180,7 @@ def by_name(what: str, value: object) -> dict[Any, Any]:
         isinstance(pair, tuple) and len(pair) == 2 and isinstance(pair[0], int | str) for pair in value
     ):
         return dict(value)
-    raise SphearError(f"{what} are given by name, as {{'upper': (1, 0)}} or {{0: (1, 0)}}, not {value!r}")
+    raise SphearError(f"{what} are given by name, as {{'upper': (1, 0)}} or {{0: (1, 0)}}, not {quoted(value)}")
 
 
 def slowest(chosen: Array, velocities: Array) -> Array:

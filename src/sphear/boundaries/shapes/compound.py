@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass
+from functools import reduce
 from math import inf
 
 import numpy as np
 
 from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Shape, Vector, slowest
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
+
+MOST = 1_000_000  # points times parts that are looked at in one go
 
 
 @dataclass(frozen=True, init=False)
@@ -20,7 +24,7 @@ class Compound(Shape):
     def __init__(self, *shapes: Shape) -> None:
         for shape in shapes:
             if not isinstance(shape, Shape):
-                raise SphearError(f"only shapes can be joined to shapes, not {shape!r}")
+                raise SphearError(f"only shapes can be joined to shapes, not {quoted(shape)}")
         if not shapes:
             raise SphearError(f"{self.word.format('a shape')} needs at least one")
         object.__setattr__(self, "shapes", shapes)
@@ -36,6 +40,18 @@ class Compound(Shape):
         """Those of all its parts."""
         return tuple(found for part in self.parts for found in part.primitives(inverted))
 
+    def seen_from(self, points: Array) -> Foot:
+        """The foot of the part that counts, some points after the others where they and the parts are many."""
+        tiny, count = ROUNDING * float(np.abs(points).max(initial=0.0)), max(1, MOST // len(self.parts))
+        if len(points) <= count:
+            return self._foot(points, tiny)
+        found = [self._foot(points[first : first + count], tiny) for first in range(0, len(points), count)]
+        return Foot(*(np.concatenate(arrays) for arrays in zip(*found, strict=True)))
+
+    @abstractmethod
+    def _foot(self, points: Array, tiny: float) -> Foot:
+        """The foot of the part that counts, where distances that differ by less than tiny are equal."""
+
     def _corners(self) -> tuple[Array, Array]:
         low, high = zip(*(part.bounds for part in self.parts), strict=True)
         return np.array(low), np.array(high)
@@ -44,13 +60,12 @@ class Compound(Shape):
         return self.word.format(", ".join(map(str, self.parts)))
 
 
-def chosen(feet: list[Foot], points: Array, sign: float) -> Foot:
-    """Of each point's feet that with the smallest distance, or with the largest if the sign is -1."""
+def chosen(feet: list[Foot], tiny: float, sign: float) -> Foot:
+    """Of each point the foot with the smallest distance, or the largest if the sign is -1; equal within tiny."""
     distances = sign * np.stack([foot.distance for foot in feet], axis=1)
     best = np.argmin(distances, axis=1)
     rows = np.arange(len(best))
     nearest = distances[rows, best]
-    tiny = ROUNDING * float(np.abs(points).max(initial=0.0))
     velocities = np.stack([foot.velocity for foot in feet], axis=1)
     velocity = slowest(distances <= nearest[:, None] + tiny, velocities)
     return Foot(sign * nearest, np.stack([foot.normal for foot in feet], axis=1)[rows, best], velocity)
@@ -74,11 +89,11 @@ class Union(Compound):
 
     def distance_from(self, points: Array) -> Array:
         """The largest of the distances."""
-        return np.asarray(np.maximum.reduce([part.distance_from(points) for part in self.parts]))
+        return reduce(np.maximum, (part.distance_from(points) for part in self.parts))
 
-    def seen_from(self, points: Array) -> Foot:
+    def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the shape whose fluid the point is in the deepest."""
-        return chosen([part.seen_from(points) for part in self.parts], points, -1.0)
+        return chosen([part.seen_from(points) for part in self.parts], tiny, -1.0)
 
 
 @dataclass(frozen=True, init=False)
@@ -98,11 +113,11 @@ class Intersection(Compound):
 
     def distance_from(self, points: Array) -> Array:
         """The smallest of the distances."""
-        return np.asarray(np.minimum.reduce([part.distance_from(points) for part in self.parts]))
+        return reduce(np.minimum, (part.distance_from(points) for part in self.parts))
 
-    def seen_from(self, points: Array) -> Foot:
+    def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the shape whose wall is the nearest, or which the point is behind the farthest."""
-        return chosen([part.seen_from(points) for part in self.parts], points, 1.0)
+        return chosen([part.seen_from(points) for part in self.parts], tiny, 1.0)
 
 
 @dataclass(frozen=True, init=False)
@@ -128,13 +143,13 @@ class Difference(Compound):
     def distance_from(self, points: Array) -> Array:
         """The smallest of the distances, the others' with the opposite sign."""
         first, *others = self.parts
-        distances = [first.distance_from(points), *(-part.distance_from(points) for part in others)]
-        return np.asarray(np.minimum.reduce(distances))
+        others_from = (-part.distance_from(points) for part in others)
+        return reduce(np.minimum, others_from, first.distance_from(points))
 
-    def seen_from(self, points: Array) -> Foot:
+    def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the nearest wall of any."""
         others = [negated(part.seen_from(points)) for part in self.parts[1:]]
-        return chosen([self.parts[0].seen_from(points), *others], points, 1.0)
+        return chosen([self.parts[0].seen_from(points), *others], tiny, 1.0)
 
 
 @dataclass(frozen=True, init=False)
@@ -159,7 +174,7 @@ class Complement(Compound):
         """That of the shape with the opposite sign."""
         return -self.parts[0].distance_from(points)
 
-    def seen_from(self, points: Array) -> Foot:
+    def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the shape, from the other side."""
         return negated(self.parts[0].seen_from(points))
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, by_name, plane_vector, text
 from sphear.boundaries.shapes.contours import contour_rows
-from sphear.boundaries.shapes.edges import edge_rows, first_crossing
-from sphear.errors import SphearError
+from sphear.boundaries.shapes.edges import edge_rows
+from sphear.boundaries.shapes.nearest_edge import blocks, first_crossing, nearest_edges
+from sphear.errors import SphearError, quoted
 from sphear.neighbours.domain import Domain
 
 SHORT = 2.0  # spacings: with shorter edges a polygon is a curve, whose rows run on around it
@@ -37,7 +38,7 @@ class Polygon(Primitive):
     def __post_init__(self) -> None:
         given: object = self.vertices
         if not isinstance(given, Sequence | np.ndarray) or len(given) < 3:
-            raise SphearError(f"a polygon has three or more vertices, not {given!r}")
+            raise SphearError(f"a polygon has three or more vertices, not {quoted(given)}")
         vertices = tuple(plane_vector("a vertex of a polygon", vertex) for vertex in self.vertices)
         object.__setattr__(self, "vertices", vertices)
         starts, ends = self._edges()
@@ -50,8 +51,8 @@ class Polygon(Primitive):
             )
         kept = []
         for edge, value in by_name("the velocities of the edges of a polygon", self.velocities).items():
-            if isinstance(edge, bool) or edge not in range(len(vertices)):
-                raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {edge!r}")
+            if not isinstance(edge, int | np.integer) or isinstance(edge, bool) or edge not in range(len(vertices)):
+                raise SphearError(f"the edges of the polygon are numbered 0 to {len(vertices) - 1}, not {quoted(edge)}")
             velocity = plane_vector(f"the velocity of edge {edge} of a polygon", value)
             along = ends[edge] - starts[edge]
             through = velocity[0] * along[1] - velocity[1] * along[0]
@@ -77,24 +78,14 @@ class Polygon(Primitive):
         for edge, velocity in dict(self.velocities).items():
             speeds[edge] = velocity
         count = len(points)
-        nearest, to_foot = np.full(count, np.inf), np.zeros((count, 2))
+        nearest, to_foot = np.empty(count), np.zeros((count, 2))
         facing, slow = np.zeros((count, 2)), np.zeros((count, 2))
-        within = np.zeros(count, bool)
+        within = np.empty(count, bool)
         tiny = ROUNDING * float(np.abs(starts).max())
-        for start, end, normal, speed in zip(starts, ends, inward, speeds, strict=True):
-            along = end - start
-            s = np.clip((points - start) @ along / (along @ along), 0.0, 1.0)[:, None]
-            to = (1.0 - s) * start + s * end - points
-            distance = np.hypot(to[:, 0], to[:, 1])
-            better, equal = distance < nearest - tiny, np.abs(distance - nearest) <= tiny
-            facing[better] = normal
-            facing[equal] += normal
-            slow[better | (equal & ((speed**2).sum() < (slow**2).sum(axis=1)))] = speed
-            to_foot[better] = to[better]
-            nearest = np.where(better, distance, nearest)
-            crosses = (start[1] > points[:, 1]) != (end[1] > points[:, 1])
-            if along[1] != 0.0:
-                within ^= crosses & (points[:, 0] < start[0] + (points[:, 1] - start[1]) * (along[0] / along[1]))
+        nearest_edges(
+            np.ascontiguousarray(points), starts, ends, blocks(starts, ends), inward, speeds, tiny,
+            nearest, to_foot, facing, slow, within,
+        )  # fmt: skip
         sign = np.where(within, 1.0, -1.0)
         on = nearest <= tiny  # there the bisecting normal of all edges that meet
         length = np.hypot(facing[:, 0], facing[:, 1])

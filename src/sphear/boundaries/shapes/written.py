@@ -12,7 +12,7 @@ from sphear.boundaries.shapes.circle import Circle
 from sphear.boundaries.shapes.half_plane import HalfPlane
 from sphear.boundaries.shapes.polygon import Polygon
 from sphear.boundaries.shapes.rectangle import Rectangle
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted, shortened
 from sphear.names import unknown
 
 PRIMITIVES: dict[str, Callable[..., Shape]] = {kind.__name__: kind for kind in (Circle, HalfPlane, Polygon, Rectangle)}
@@ -59,19 +59,19 @@ def _shape(node: ast.expr, text: str) -> Shape:
         named: dict[str, Any] = {str(each.arg): ast.literal_eval(each.value) for each in node.keywords}
     except (ValueError, TypeError):
         raise SphearError(
-            f"the arguments of {ast.unparse(node)} are to be numbers, in brackets where several"
+            f"the arguments of {shortened(ast.unparse(node))} are to be numbers, in brackets where several"
         ) from None
     if len(named) < len(node.keywords):
-        raise SphearError(f"{ast.unparse(node)} says the same twice: each argument is given once")
+        raise SphearError(f"{shortened(ast.unparse(node))} says the same twice: each argument is given once")
     try:
         signature(PRIMITIVES[name]).bind(*values, **named)
     except TypeError as error:
         takes = ", ".join(signature(PRIMITIVES[name]).parameters)
-        raise SphearError(f"{ast.unparse(node)} has {error}: it takes {takes}") from None
+        raise SphearError(f"{shortened(ast.unparse(node))} has {error}: it takes {takes}") from None
     return PRIMITIVES[name](*values, **named)
 
 
 def _no_shape(text: str) -> SphearError:
     return SphearError(
-        f"a shape is written as in Circle((0.3, 0.5), 0.1) | Rectangle((0.6, 0.2), (0.8, 0.4)), not as {text!r}"
+        f"a shape is written as in Circle((0.3, 0.5), 0.1) | Rectangle((0.6, 0.2), (0.8, 0.4)), not as {quoted(text)}"
     )

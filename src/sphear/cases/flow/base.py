@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, shortened
 from sphear.schemes.base import FlowInTime, Settings, settings_type
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
@@ -57,7 +57,8 @@ class FlowCase:
         time_name: how that time is called.
         metrics: errors and the like at one moment, by name.
         ended: why a run is over at one moment, from its metrics: "steady", "failed: ...", what else ends it, or None.
-        summary: what is found at the end, beside the metrics.
+        summary: what is found at the end, beside the metrics; `reference_missing` is a sentence on what could not be
+            compared.
         profiles: numbers along lines, at the end, that are kept with the results of a sweep.
         headline: the metric that is drawn against time.
         known: that metric where others have it, times and values; None where nobody has.
@@ -73,7 +74,7 @@ class FlowCase:
     time_name: str
     metrics: Callable[[Settings, FlowInTime], dict[str, float]]
     ended: Callable[[Settings, FlowInTime, dict[str, float]], str | None]
-    summary: Callable[[Settings, FlowInTime], dict[str, float]] = lambda settings, flow: {}
+    summary: Callable[[Settings, FlowInTime], dict[str, Any]] = lambda settings, flow: {}
     profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"
     known: Callable[[Settings], tuple[Array, Array] | None] = lambda settings: None
@@ -97,7 +98,9 @@ class FlowCase:
         """
         general = settings_type(scheme)
         if scheme not in self.defaults:
-            raise SphearError(f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {scheme}")
+            raise SphearError(
+                f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {shortened(scheme)}"
+            )
         return self.kinds.get(scheme, general)
 
     def explicit(self, **changes: Any) -> FlowSettings:

@@ -29,7 +29,7 @@ def flow(case: str, /, *, preset: str | None = None, **settings: Any) -> FlowRun
     """
     from sphear.cases.flow import FLOWS
 
-    chosen = FLOWS[case.replace("_", "-")]
+    chosen = FLOWS[case]
     return FlowRun(chosen, flow_settings(chosen, settings, preset))
 
 

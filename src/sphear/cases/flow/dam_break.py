@@ -11,6 +11,7 @@ from pydantic import Field
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Rectangle
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
+from sphear.cases.size import check_size
 from sphear.errors import SphearError
 from sphear.references import dam_break as reference
 from sphear.schemes.incompressible.settings import IncompressibleSettings
@@ -48,6 +49,7 @@ def problem(settings: Settings) -> Problem:
     assert isinstance(settings, DamBreakSettings)
     if settings.initial != "lattice":
         raise SphearError(f"the column of dam-break starts from initial=lattice, not from initial={settings.initial}")
+    check_size("resolution", settings.resolution, (1.0, settings.column))
     spacing = WIDTH / settings.resolution
     if settings.column * WIDTH < FEWEST * spacing or settings.resolution < FEWEST:
         raise SphearError(
@@ -107,11 +109,15 @@ def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str 
     return "the front is at the wall" if found["front"] > settings.tank - 2 * flow.problem.spacing else None
 
 
-def summary(settings: Settings, flow: FlowInTime) -> dict[str, float]:
+def summary(settings: Settings, flow: FlowInTime) -> dict[str, Any]:
     """How far the front is ahead of where the experiment has it, in column widths, where that is known."""
     measured, time = known(settings), flow.time * speed(settings) / WIDTH
-    if measured is None or not measured[0][0] <= time <= measured[0][-1]:
+    if measured is None:
         return {}
+    first, last = measured[0][0], measured[0][-1]
+    if not first <= time <= last:
+        said = f"the front was measured from T = {first:g} to {last:g}, and this is T = {time:.4g}"
+        return {"reference_missing": said}
     return {"front_deviation": metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from sphear.boundaries import Box
 from sphear.boundaries.box import with_images
 from sphear.boundaries.shapes import Shape, fluid_lattice
+from sphear.cases.size import check_size
 from sphear.engine.sweep import sweep
 from sphear.errors import SphearError
 from sphear.interactions import Shifting
@@ -32,7 +33,7 @@ def particles_between(box: Box, settings: Settings) -> tuple[Array, float]:
     As `settings.initial` says: on a square lattice; with every other row of it shifted by half a spacing (by a quarter
     to either side where the rows end at walls); or relaxed from random places, drawn with `settings.seed`.
     """
-    spacing = (box.upper[-1] - box.lower[-1]) / settings.resolution
+    spacing = spacing_of(box, settings)
     ticks = [
         low + (np.arange(round((high - low) / spacing)) + 0.5) * spacing
         for low, high in zip(box.lower, box.upper, strict=True)
@@ -48,6 +49,18 @@ def particles_between(box: Box, settings: Settings) -> tuple[Array, float]:
     return positions, spacing
 
 
+def spacing_of(box: Box, settings: Settings) -> float:
+    """The spacing of particles, `resolution` of them along the last axis of a box.
+
+    Raises:
+        SphearError: there are more of them in the box than there is memory for.
+    """
+    across = box.upper[-1] - box.lower[-1]
+    extents = [(high - low) / across for low, high in zip(box.lower, box.upper, strict=True)]
+    check_size("resolution", settings.resolution, extents)
+    return across / settings.resolution
+
+
 def particles_in(shape: Shape, box: Box, settings: Settings) -> tuple[Array, float]:
     """Particles of a lattice that fill a shape in a box, `resolution` of them along its last axis, and their spacing.
 
@@ -56,7 +69,7 @@ def particles_in(shape: Shape, box: Box, settings: Settings) -> tuple[Array, flo
     """
     if settings.initial != "lattice":
         raise SphearError(f"particles around shapes start from initial=lattice, not from initial={settings.initial}")
-    spacing = (box.upper[-1] - box.lower[-1]) / settings.resolution
+    spacing = spacing_of(box, settings)
     window = Domain(box.lower, box.upper, box.periodic)
     return fluid_lattice(shape, spacing, window), spacing
 

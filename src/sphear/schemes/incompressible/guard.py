@@ -7,15 +7,14 @@ from typing import Any, NoReturn
 import numpy as np
 
 from sphear.boundaries.shapes import Shape
-from sphear.errors import SphearError
 from sphear.schemes.base import FlowFailure
+from sphear.schemes.checks import check_shape
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
 FASTEST = 10.0  # times the expected speed, from which on a flow has failed
 CLOSEST = 0.1  # spacings from a wall, to which a particle is put back
-SLACK = 1e-9  # spacings, of rounding
 BEYOND = 1.0  # spacings behind a wall, from which on a flow has failed
 
 
@@ -27,16 +26,12 @@ class Guard:
         region: of fluid; None without walls.
 
     Raises:
-        SphearError: a particle starts behind a wall.
+        SphearError: the particles are behind walls, or do not fill the region.
     """
 
     def __init__(self, problem: Problem, region: Shape | None) -> None:
         self.problem, self.region = problem, region
-        if region is None:
-            return
-        behind = np.flatnonzero(region.distance(problem.positions) < -SLACK * problem.spacing)
-        if len(behind):
-            raise SphearError(f"particle {behind[0]} at ({_text(problem.positions[behind[0]])}) starts behind a wall")
+        check_shape(problem)
 
     def check_speed(self, time: float, x: Array, velocities: Array) -> None:
         """End a flow that is far too fast.
