@@ -11,5 +11,9 @@ class TooFewNeighboursError(SphearError):
     """Some particles have too few (or too badly placed) neighbours for a correction or a fit."""
 
 
+class SphearWarning(UserWarning):
+    """What can be computed but is hardly meant; the message is one sentence."""
+
+
 class Interrupted(Exception):
     """Ctrl-C in the midst of what can go on later; the message is one sentence that says how."""
