@@ -22,6 +22,10 @@ class OutputError(SphearError):
     """A file of results that could not be written, by no mistake in the input."""
 
 
+class SphearWarning(UserWarning):
+    """What can be computed but is hardly meant; the message is one sentence."""
+
+
 class Interrupted(Exception):
     """A signal in the midst of what can go on later; the message is one sentence that says how.
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
 from numbers import Integral
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from sphear.errors import SphearError, quoted
 
@@ -15,6 +16,7 @@ S = TypeVar("S")
 T = TypeVar("T")
 
 WORTH_A_THREAD = 10_000  # particles: below, handing out work costs more than it saves
+MOST_THREADS = 1024
 
 
 def thread_count(threads: int | None, particles: int) -> int:
@@ -23,6 +25,8 @@ def thread_count(threads: int | None, particles: int) -> int:
         return max(1, min(_processors(), particles // WORTH_A_THREAD))
     if not isinstance(threads, Integral) or threads < 1:
         raise SphearError(f"threads must be a whole number of at least 1, not {quoted(threads)}")
+    if threads > MOST_THREADS:
+        raise SphearError(f"threads must be at most {MOST_THREADS}, not {quoted(threads)}")
     return int(threads)
 
 
@@ -31,7 +35,8 @@ def _processors() -> int:
 
 
 @lru_cache
-def _pool(threads: int) -> ThreadPoolExecutor:
+def _pool(threads: int, process: int) -> ThreadPoolExecutor:
+    """The pool of one process: a forked child inherits the object without its threads, and would wait for ever."""
     return ThreadPoolExecutor(threads, thread_name_prefix="sphear")
 
 
@@ -39,4 +44,48 @@ def on_threads(function: Callable[[S], T], items: Sequence[S], threads: int) -> 
     """function(item) of each item, in their order; the first error of any is raised."""
     if threads == 1 or len(items) < 2:
         return [function(item) for item in items]
-    return list(_pool(threads).map(function, items))
+    return list(_pool(threads, os.getpid()).map(function, items))
+
+
+def _compiler_lock() -> Any:
+    """Numba's lock, where Numba is in use; importing it here would cost those who need no compiled code."""
+    module = sys.modules.get("numba.core.compiler_lock")
+    return getattr(module, "global_compiler_lock", None)
+
+
+_held: list[Any] = []
+_without_openmp: list[int] = []  # processes forked from one whose threads were OpenMP's
+
+
+def loop_threads() -> int:
+    """The threads that compiled parallel loops may use: one in a child forked after OpenMP was used, which would die."""
+    import numba
+
+    return 1 if os.getpid() in _without_openmp else int(numba.config.NUMBA_NUM_THREADS)
+
+
+def _openmp_in_use() -> bool:
+    layer = sys.modules.get("numba.np.ufunc.parallel")
+    return layer is not None and getattr(layer, "_threading_layer", None) == "omp"
+
+
+def _hold() -> None:
+    if (lock := _compiler_lock()) is not None:
+        lock.acquire()
+        _held.append(lock)
+
+
+def _let_go() -> None:
+    if _held:
+        _held.pop().release()
+
+
+def _in_child() -> None:
+    _let_go()
+    if _without_openmp or _openmp_in_use():
+        _without_openmp[:] = [os.getpid()]
+
+
+if hasattr(os, "register_at_fork"):
+    # a child forked while another thread compiles would inherit Numba's lock, held by a thread that it does not have
+    os.register_at_fork(before=_hold, after_in_parent=_let_go, after_in_child=_in_child)

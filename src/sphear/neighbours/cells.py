@@ -12,6 +12,7 @@ from sphear.engine.cache import compiled
 Array = np.ndarray[Any, Any]
 
 REACH = 2  # cells of half a support: fewer candidates than whole ones, see benchmarks/lanes.py
+FARTHEST = 1e15  # cells: beyond, neighbouring floating-point numbers are no neighbours
 PADDING = 8  # room behind the last entry, so that eight candidates can always be read at once
 
 
@@ -35,8 +36,41 @@ class CellSort:
 
 
 @compiled
-def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
-    """The attributes of `CellSort` for positions (E, d), in their order; compiled, so that a time loop can call it."""
+def fold(along, count):  # type: ignore[no-untyped-def]
+    """The cell 0 ... count - 1 of a place given in cells, on an axis that is folded like a fan.
+
+    Folding never moves two cells apart, so whatever is near stays near; what comes to lie there from elsewhere is
+    sorted out by its distance.
+    """
+    cell = np.int64(min(along, FARTHEST)) % (2 * count)
+    return min(cell, 2 * count - 1 - cell)
+
+
+@compiled
+def grid_counts(extent, inverse, entries):  # type: ignore[no-untyped-def]
+    """The cells along each axis: as many as the entries extend over, but not many more in all than entries.
+
+    Longer axes are folded: one far entry, or a thin diagonal line of them, costs no more than others. Folds of
+    different lengths keep a diagonal from being folded onto itself.
+    """
+    dimension = len(extent)
+    counts = np.empty(dimension, np.int64)
+    most = 8.0 * entries + 1000.0
+    longest = most
+    while True:
+        cells = 1.0
+        for axis in range(dimension):
+            wanted = extent[axis] * inverse + 1.0
+            counts[axis] = np.int64(min(wanted, longest + axis))
+            cells *= counts[axis] + 2 * REACH
+        if cells <= most or longest < 4.0:
+            return counts
+        longest *= 0.8
+
+
+@compiled
+def grid(positions, support):  # type: ignore[no-untyped-def]
+    """The lower corner and extent of the box around entries (E, d), one over the size of a cell, cells along axes."""
     entries, dimension = positions.shape
     lower, extent = np.zeros(dimension), np.zeros(dimension)
     for axis in range(dimension):
@@ -45,30 +79,36 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
             low, high = min(low, positions[entry, axis]), max(high, positions[entry, axis])
         if entries:
             lower[axis], extent[axis] = low, high - low
+    inverse = 1.0 / (support / REACH * (1 + 1e-9))
+    return lower, extent, inverse, grid_counts(extent, inverse, entries)
 
-    # cells of half a support, or larger ones where that would leave most cells empty
-    size = support / REACH * (1 + 1e-9)
-    wanted = np.inf
-    while wanted > 8 * entries + 1000:
-        wanted = 1.0
-        for axis in range(dimension):
-            wanted *= extent[axis] / size + 2 * REACH + 1
-        size *= 1.0 if wanted <= 8 * entries + 1000 else 1.5
-    inverse = 1.0 / size
+
+@compiled
+def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
+    """The attributes of `CellSort` for positions (E, d), in their order; compiled, so that a time loop can call it."""
+    entries, dimension = positions.shape
+    lower, extent, inverse, counts = grid(positions, support)
     # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
     strides = np.ones(dimension, np.int64)  # the first axis runs fastest
     cells, border = np.int64(1), np.int64(0)
     for axis in range(dimension):
         strides[axis] = cells
         border += REACH * cells
-        cells = cells * np.int64(extent[axis] * inverse + 1 + 2 * REACH)
+        cells = cells * (counts[axis] + 2 * REACH)
+    folded = np.empty(dimension, np.bool_)
+    for axis in range(dimension):
+        folded[axis] = extent[axis] * inverse >= counts[axis]
 
     cell = np.empty(entries, np.int32)
     start = np.zeros(cells + 1, np.int64)
     for entry in range(entries):
         number = border
         for axis in range(dimension):
-            number += np.int64((positions[entry, axis] - lower[axis]) * inverse) * strides[axis]
+            along = (positions[entry, axis] - lower[axis]) * inverse
+            if folded[axis]:
+                number += fold(along, counts[axis]) * strides[axis]
+            else:
+                number += np.int64(along) * strides[axis]
         cell[entry] = number
         start[number + 1] += 1
     for number_before in range(cells):
@@ -95,6 +135,24 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
     return coordinates, order, sorted_cell, start, rows
 
 
+@compiled
+def point_cells(points, positions, support):  # type: ignore[no-untyped-def]
+    """The cell of each point (M, d) in the grid of `sorted_cells`; of one outside, the nearest in the box of entries.
+
+    That is no farther from any entry's cell than the point's own would be.
+    """
+    lower, extent, inverse, counts = grid(positions, support)
+    cell = np.empty(len(points), np.int32)
+    for point in range(len(points)):
+        number, stride = np.int64(0), np.int64(1)
+        for axis in range(len(lower)):
+            along = min(max(points[point, axis] - lower[axis], 0.0), extent[axis]) * inverse
+            number += (fold(along, counts[axis]) + REACH) * stride
+            stride *= counts[axis] + 2 * REACH
+        cell[point] = number
+    return cell
+
+
 def cell_sort(positions: Array, support: float) -> CellSort:
-    """Sort positions (E, d) into cells of half a support, or larger ones where that would leave most cells empty."""
+    """Sort positions (E, d) into cells of half a support."""
     return CellSort(*sorted_cells(positions, support))

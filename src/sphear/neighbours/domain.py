@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from sphear.errors import SphearError
+from sphear.neighbours.limits import refuse_images
 
 FloatArray = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -85,7 +86,13 @@ class Domain:
 
         Images are particles like any other to everything that follows, so no sweep knows of periods; a period shorter
         than the reach simply takes more images.
+
+        Raises:
+            SphearError: they would take more than half of the free memory.
         """
+        if self.periodic_axes:
+            periods = np.subtract(self.upper, self.lower)[list(self.periodic_axes)]
+            refuse_images(len(positions), periods, reach)
         inside = self.wrapped(positions)
         source = np.arange(len(positions), dtype=np.int32)
         for axis in self.periodic_axes:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -10,12 +12,15 @@ import numpy as np
 
 from sphear.engine.threads import on_threads, thread_count
 from sphear.errors import SphearError
-from sphear.neighbours.cells import PADDING, cell_sort
+from sphear.neighbours.cells import PADDING, REACH, cell_sort, point_cells
 from sphear.neighbours.domain import Domain
+from sphear.neighbours.limits import refuse_pairs
 from sphear.neighbours.pair_list import Chunk, build_chunk, room
+from sphear.reading import real_numbers
 
 Array = np.ndarray[Any, Any]
 
+SMALLEST, LARGEST = 1e-100, 1e100  # of a support: its fifth power is taken, of volumes and derivatives in other units
 CHUNK_ROWS = 16384  # of the pair list built and swept at once: its coefficients stay in the cache
 
 
@@ -34,6 +39,7 @@ class Neighbours:
         keep_coincident: list pairs at no distance too (of a point of evaluation and a particle) instead of refusing
             them.
         rows: sums are made for the first so many particles; the others are their neighbours only. None is all.
+        at: (M, d), points that sums are made for instead of the particles; they are nobody's neighbours.
 
     Attributes:
         coordinates: (d, E + 8), positions of the entries in the order of the cells.
@@ -45,7 +51,8 @@ class Neighbours:
         chunks_once: each pair once; of the two lists, one is made at once and the other when first asked for.
 
     Raises:
-        SphearError: two particles at the same place.
+        SphearError: two particles at the same place; more images or pairs than memory holds; a support for which
+            floating point has no squares.
     """
 
     def __init__(
@@ -58,14 +65,19 @@ class Neighbours:
         each_pair_once: bool = False,
         keep_coincident: bool = False,
         rows: int | None = None,
+        at: Array | None = None,
     ) -> None:
+        positions = real_numbers(positions, "positions")
         self.dimension = positions.shape[1]
-        self.count = len(positions) if rows is None else rows
+        self.count = len(at) if at is not None else len(positions) if rows is None else rows
         self.support = float(support)
+        if not SMALLEST <= self.support <= LARGEST:
+            raise SphearError(f"the support must be between {SMALLEST:g} and {LARGEST:g}, not {self.support:.3g}")
         self.threads = thread_count(threads, self.count)
         entries, source = domain.with_images(positions, self.support) if domain else (positions, None)
-        self._keep_coincident = keep_coincident
-        self._cells = cells = cell_sort(np.ascontiguousarray(entries, np.float64), self.support)
+        self._keep_coincident = keep_coincident or at is not None
+        entries = np.ascontiguousarray(entries, np.float64)
+        self._cells = cells = cell_sort(entries, self.support)
         self.coordinates = cells.coordinates
         self.source = cells.order if source is None else source[cells.order]
         self._image = np.zeros(len(cells.order) + PADDING, np.bool_)
@@ -73,7 +85,44 @@ class Neighbours:
             self._image[: len(cells.order)] = cells.order >= self.count
         self.entry = np.flatnonzero(~self._image[: len(cells.order)]).astype(np.int32)
         self.rows = self.source[self.entry]
+        if at is not None:
+            self._put_points(domain.wrapped(at) if domain else at, entries)
         _ = self.chunks_once if each_pair_once else self.chunks
+
+    def _put_points(self, points: Array, entries: Array) -> None:
+        """Append the points to the entries, in the order of their cells, as the rows; no cell holds them."""
+        cell = point_cells(points, entries, self.support)
+        order = np.argsort(cell, kind="stable").astype(np.int32)
+        held = len(self.source)
+        places = np.full((self.dimension, held + len(points) + PADDING), np.inf)
+        places[:, :held], places[:, held:-PADDING] = self.coordinates[:, :held], points[order].T
+        self._cells = replace(self._cells, coordinates=places, cell=np.concatenate((self._cells.cell, cell[order])))
+        self.coordinates = places
+        self.source = np.concatenate((self.source, np.zeros(len(points), np.int32)))  # any: sums do not ask for it
+        self._image = np.zeros(len(self.source) + PADDING, np.bool_)
+        self.entry = np.arange(held, len(self.source), dtype=np.int32)
+        self.rows = order
+
+    def scaled(self, unit: float) -> Neighbours:
+        """The same pairs, with lengths in another unit: a power of two, so that nothing is rounded."""
+        found = copy(self)
+        found.coordinates = self.coordinates / unit
+        found.support = self.support / unit
+        found._cells = replace(self._cells, coordinates=found.coordinates)
+        return found
+
+    @property
+    def alone(self) -> Array:
+        """The particles that have no neighbour, in their order."""
+        chunks = self.chunks_once if "chunks_once" in self.__dict__ else self.chunks
+        lonely = [self.entry[c.begin : c.end][c.first[1:] == c.first[:-1]] for c in chunks]
+        found = np.concatenate(lonely) if lonely else np.empty(0, np.int32)
+        if len(found) and "chunks_once" in self.__dict__:  # they may be listed as those of others
+            listed = np.zeros(len(self.source), np.bool_)
+            for chunk in chunks:
+                listed[chunk.neighbour[: chunk.pairs]] = True
+            found = found[~listed[found]]
+        return np.sort(self.source[found]) if len(found) else found
 
     @cached_property
     def chunks(self) -> list[Chunk]:
@@ -105,7 +154,8 @@ class Neighbours:
         return self.rows[chunk.begin : chunk.end]
 
     def _listed(self, once: bool) -> list[Chunk]:
-        share = 2 * self.threads if self.threads > 1 else 1  # each thread has as many chunks, every second one too
+        refuse_pairs(self._cells.start, self._cells.rows, REACH, len(self._cells.order), self.count, once)
+        share = min(2 * self.threads, max(1, self.count)) if self.threads > 1 else 1  # each thread has as many chunks, every second one too
         parts = share * -(-self.count // (share * CHUNK_ROWS))
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]

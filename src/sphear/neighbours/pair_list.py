@@ -95,7 +95,7 @@ def room(cells: CellSort, rows: int, once: bool) -> tuple[int, int]:
     used = max(1, int(np.count_nonzero(np.diff(start))))
     ball = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}[dimension] * REACH**dimension
     share = 0.5 if once else 1.0
-    return int(1.1 * share * rows * len(cells.cell) / used * ball) + most, most
+    return int(1.1 * share * rows * len(cells.order) / used * ball) + most, most
 
 
 def build_chunk(

@@ -13,6 +13,7 @@ from sphear.errors import SphearError
 from sphear.interactions import NumberDensity
 from sphear.kernels import KERNELS, Kernel
 from sphear.neighbours import Domain, Neighbours
+from sphear.reading import positive_number, real_numbers
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -23,7 +24,7 @@ SUPPORT_OVER_DX = 2 / 0.637  # about 30 neighbours in 2-D (Basa, Quinlan & Lasti
 
 def read_positions(positions: ArrayLike, domain: Domain | None, name: str = "positions") -> Array:
     """Positions as an array (N, d) of finite numbers, d = 1 to 3, that agrees with the domain."""
-    array = _numbers(positions, name)
+    array = real_numbers(positions, name)
     if array.ndim != 2 or array.shape[1] not in (1, 2, 3):
         raise SphearError(f"{name} must have the shape (N, d) with d = 1, 2 or 3, not {array.shape}")
     if not len(array):
@@ -38,7 +39,7 @@ def read_positions(positions: ArrayLike, domain: Domain | None, name: str = "pos
 
 def read_field(values: ArrayLike, name: str, count: int) -> Array:
     """A field as an array (N, k) of finite numbers."""
-    array = _numbers(values, name)
+    array = real_numbers(values, name)
     if array.ndim not in (1, 2) or len(array) != count:
         raise SphearError(
             f"{name} must have the shape ({count},) or ({count}, k) as the positions do, not {array.shape}"
@@ -49,7 +50,7 @@ def read_field(values: ArrayLike, name: str, count: int) -> Array:
 
 def read_property(values: ArrayLike, name: str, count: int) -> Array:
     """A positive property of each particle, (N,), from one number for all or one for each."""
-    array = _numbers(values, name)
+    array = real_numbers(values, name)
     if array.shape not in ((), (1,), (count,)):
         raise SphearError(
             f"{name} must be one number or have the shape ({count},) as the positions do, not {array.shape}"
@@ -83,7 +84,7 @@ def read_kernel(kernel: str | Kernel, h_over_dx: float | None, spacing: float) -
             raise SphearError(f"{kernel!r} has its own h: h_over_dx goes with a kernel's name")
         return kernel
     kind = KERNELS[kernel]
-    ratio = SUPPORT_OVER_DX / kind.support if h_over_dx is None else _positive(h_over_dx, "h_over_dx")
+    ratio = SUPPORT_OVER_DX / kind.support if h_over_dx is None else positive_number(h_over_dx, "h_over_dx")
     return kind(ratio * spacing)
 
 
@@ -94,7 +95,7 @@ def read_spacing(spacing: float | None, positions: Array, volumes: Array | None,
     """
     count, dimension = positions.shape
     if spacing is not None:
-        return _positive(spacing, "the particle spacing")
+        return positive_number(spacing, "the particle spacing")
     if volumes is not None:
         return float(volumes.mean() ** (1 / dimension))
     if domain is not None and len(domain.periodic_axes) == dimension:
@@ -118,28 +119,6 @@ def read_precision(precision: str) -> str:
     if precision not in ("float64", "float32"):
         raise SphearError(f"precision must be 'float64' or 'float32', not {precision!r}")
     return precision
-
-
-def _positive(value: float, name: str) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = np.nan
-    if not 0 < number < np.inf:
-        raise SphearError(f"{name} must be a positive number, not {value!r}")
-    return number
-
-
-def _numbers(values: ArrayLike, name: str) -> Array:
-    try:
-        array = np.asarray(values)
-        if array.dtype.kind not in "biufO":  # text, dates and complex numbers would be converted without a word
-            raise TypeError
-        return np.ascontiguousarray(array, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise SphearError(
-            f"{name} must be an array of real numbers, which this {type(values).__name__} is not"
-        ) from None
 
 
 def _finite(array: Array, name: str) -> None:

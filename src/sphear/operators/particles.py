@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -15,8 +16,11 @@ from sphear.interactions import Gradient
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
+from sphear.operators.doubts import tell_of_loneliness, tell_of_volumes
 from sphear.operators.pipeline import Operation, run
+from sphear.operators.scaling import InUnits, Reduced, restored
 from sphear.viscosity import ViscousTerm, uncorrected, with_varying_viscosity
+from sphear.viscosity.base import LaplacianTerm
 
 Array = np.ndarray[Any, Any]
 Fallback = Literal["uncorrected", "nan"]
@@ -50,6 +54,17 @@ def too_few_neighbours(
         f"{len(lacking)} of {len(positions)} particles have too few neighbours for {what}, the first {first} ({place}):"
         f" take a larger {larger}{remedy}"
     )
+
+
+def ignores_constants(term: ViscousTerm, correction: Correction, fallback: Fallback | None) -> bool:
+    """Whether a constant that is added to the field changes nothing but the rounding of the result."""
+    if fallback == "uncorrected" and correction.name != "none" and not ignores_constants(term, NoCorrection(), None):
+        return False
+    if not isinstance(term, LaplacianTerm):
+        return term.radial
+    # sums in several stages are over values, unless a correction makes them sums over differences
+    staged = type(term).laplacian_stages is not LaplacianTerm.laplacian_stages
+    return term.of_differences(correction) and (correction.zeroth_order or not staged)
 
 
 @dataclass(frozen=True)
@@ -98,22 +113,32 @@ class Particles:
             dx = arguments.read_spacing(spacing, places, given, domain)
             chosen = arguments.read_kernel(kernel, h_over_dx, dx)
         neighbours = Neighbours(places, chosen.radius, domain, threads=threads, each_pair_once=each_pair_once)
+        tell_of_loneliness(places, neighbours)
+        if given is not None:
+            tell_of_volumes(given, chosen, neighbours)
         if given is None:
             given = arguments.particle_volumes(chosen, neighbours, each_pair_once)
         return cls(places, chosen, neighbours, given, arguments.read_precision(precision), each_pair_once)
+
+    @cached_property
+    def in_units(self) -> InUnits:
+        """The same with lengths of order one, where the precision of the sums asks for it."""
+        return InUnits.of(self.kernel, self.neighbours, self.volumes, self.precision)
 
     def laplacian(
         self, values: Array, term: ViscousTerm, correction: Correction, fallback: Fallback | None = None
     ) -> Array:
         """The Laplacian of each column of values (N, k)."""
-        if not hasattr(term, "laplacian_stages"):
+        if not isinstance(term, LaplacianTerm):
             raise SphearError(
                 f"viscosity {term.name!r} cannot act on scalar fields: its pair force has a part along the line of"
                 f" centres, so it needs a velocity; use viscous_acceleration, or a term that is a Laplacian of each"
                 f" component"
             )
-        fields = {"values": values}
-        return self._apply(term, correction, fields, fallback, "laplacian_stages")
+        shifted = ignores_constants(term, correction, fallback)
+        field = Reduced.of(values, self.precision, shifted=shifted)
+        result = self._apply(term, correction, {"values": field.values}, fallback, "laplacian_stages", self.in_units)
+        return restored(result, field.size / self.in_units.unit**2)
 
     def viscous_acceleration(
         self,
@@ -125,22 +150,36 @@ class Particles:
         fallback: Fallback | None = None,
     ) -> Array:
         """(1/rho) div tau, (N, d)."""
-        fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
         # one that is constant asks for no neighbour's
         varies = bool((dynamic_viscosity != dynamic_viscosity[:1]).any())
         adapted = with_varying_viscosity if varies else _as_it_is
-        return self._apply(term, correction, fields, fallback, "acceleration_stages", adapted)
+        stages = "acceleration_stages"
+        if not term.homogeneous:  # a term with constants in the user's units
+            units = InUnits(self.kernel, self.neighbours, self.volumes, 1.0)
+            fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
+            return restored(self._apply(term, correction, fields, fallback, stages, units, adapted), 1.0)
+        shifted = ignores_constants(term, correction, fallback)
+        u = Reduced.of(velocities, self.precision, shifted=shifted, together=True)
+        mu, rho = (Reduced.of(x[:, None], self.precision, shifted=False) for x in (dynamic_viscosity, density))
+        fields = {"velocity": u.values, "dynamic_viscosity": mu.values[:, 0], "density": rho.values[:, 0]}
+        result = self._apply(term, correction, fields, fallback, stages, self.in_units, adapted)
+        return restored(result, u.size * (mu.size / rho.size) / self.in_units.unit**2)
 
     def gradient(
         self, values: Array, correction: Correction, of_differences: bool = True, fallback: Fallback | None = None
     ) -> Array:
         """The gradient of each column of values (N, k), (N, k d)."""
+        units = self.in_units
+        shifted = of_differences or (correction.zeroth_order and fallback != "uncorrected")
+        field = Reduced.of(values, self.precision, shifted=shifted)
 
         def operation(c: Correction) -> Operation:
-            return Operation((Gradient(self.kernel, c, of_differences),), c.preparation(self.kernel))
+            return Operation((Gradient(units.kernel, c, of_differences),), c.preparation(units.kernel))
 
         what = f"correction {correction.name!r}"
-        return self.applied(operation(correction), operation(NoCorrection()), {"values": values}, fallback, what)
+        fields = {"values": field.values}
+        result = self.applied(operation(correction), operation(NoCorrection()), fields, fallback, what, units)
+        return restored(result, np.repeat(field.size / units.unit, self.neighbours.dimension))
 
     def _apply(
         self,
@@ -149,25 +188,31 @@ class Particles:
         fields: dict[str, Array],
         fallback: Any,
         stages: str,
+        units: InUnits,
         adapted: Callable[[ViscousTerm], ViscousTerm] = _as_it_is,
     ) -> Array:
         def operation(t: ViscousTerm, c: Correction) -> Operation:
-            return Operation(getattr(adapted(t), stages)(self.kernel, c), t.preparation(self.kernel, c))
+            return Operation(getattr(adapted(t), stages)(units.kernel, c), t.preparation(units.kernel, c))
 
         what = needing_neighbours(term, correction)
-        return self.applied(operation(term, correction), operation(*uncorrected(term)), fields, fallback, what)
+        return self.applied(operation(term, correction), operation(*uncorrected(term)), fields, fallback, what, units)
 
     def applied(
-        self, operation: Operation, plain: Operation, fields: dict[str, Array], fallback: Fallback | None, what: str
+        self,
+        operation: Operation,
+        plain: Operation,
+        fields: dict[str, Array],
+        fallback: Fallback | None,
+        what: str,
+        units: InUnits,
     ) -> Array:
         """The result of an operation; where its preparation is deficient `plain` stands in, or it is refused."""
         if fallback not in (None, "uncorrected", "nan"):
             raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
-        fields = {"volume": self.volumes, **fields}
         outcome = run(
             operation,
-            self.neighbours,
-            fields,
+            units.neighbours,
+            {"volume": units.volumes, **fields},
             plain=None if fallback is None else plain,
             each_pair_once=self.each_pair_once,
             dtype=self.precision,

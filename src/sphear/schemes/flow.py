@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
-import numba
 import numpy as np
 
 from sphear.boundaries import WALL_VELOCITIES
 from sphear.engine.memory import LARGE, keep_freed_memory
-from sphear.engine.threads import thread_count
+from sphear.engine.threads import loop_threads, thread_count
 from sphear.equations_of_state import IdealGas
 from sphear.errors import SphearError
 from sphear.operators import arguments
@@ -69,8 +69,9 @@ class Flow:
         at_start = arrays(settings, problem, chosen, self.kernel, self._energy_at_rest())
         self._x, self._v, self._fields, self._change, self._space, self._numbers, self._constants = at_start
         self._fresh = False  # whether the rates are those of the state
-        self.threads = min(thread_count(settings.threads, self.count), numba.config.NUMBA_NUM_THREADS)
-        self._loop = loop_module(
+        self.threads = min(thread_count(settings.threads, self.count), loop_threads())
+        self._loop_of = partial(
+            loop_module,
             problem.positions.shape[1],
             chosen,
             integrator=settings.integrator,
@@ -78,8 +79,8 @@ class Flow:
             mirrored=settings.walls == "mirror",
             wall_velocity=WALL_VELOCITIES.name(settings.wall_velocity),
             wall_particles=settings.wall_particles,
-            parallel=self.threads > 1,
         )
+        self._loop = self._loop_of(parallel=self.threads > 1)
         nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
         self.problem = replace(problem, positions=nothing, velocities=nothing)
 
@@ -147,6 +148,8 @@ class Flow:
         if self.count > LARGE:
             keep_freed_memory()
         fastest = math.inf if self.settings.equation_of_state == "ideal_gas" else self.sound_speed
+        if self.threads > 1 and loop_threads() == 1:  # made before this process was forked
+            self.threads, self._loop = 1, self._loop_of(parallel=False)
         made, status, worst = self._loop.advance(
             self._x, self._v, self._fields, self._change, self.time_step, steps, self._fresh, fastest, self.count,
             self.threads, self._space, self._numbers, self._constants,

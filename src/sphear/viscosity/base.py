@@ -45,6 +45,11 @@ class ViscousTerm:
 
         return card(self).text()
 
+    @property
+    def homogeneous(self) -> bool:
+        """Whether the term is linear in velocity and viscosity and has no constant with a unit, so that units cancel."""
+        return True
+
     def preparation(self, kernel: Kernel, correction: Correction) -> Any:
         """The interaction that sums up what the term needs of a particle's neighbourhood; None if nothing."""
         return correction.preparation(kernel, self.uses_second_derivatives)

@@ -52,6 +52,11 @@ class Monaghan(ViscousTerm):
             if value is not None and not 0 <= value < float("inf"):
                 raise SphearError(f"{name} of viscosity 'monaghan' must be zero or positive, not {value}")
 
+    @property
+    def homogeneous(self) -> bool:
+        """Only with the strength of the dynamic viscosity: alpha takes a speed, and beta squares one."""
+        return self.alpha is None and not self.beta
+
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar
     ) -> Vector:
