@@ -43,6 +43,16 @@ def replaced(make: Callable[[Path], object]) -> Callable[[Path], None]:
     return damage
 
 
+def moved_behind_a_link(path: Path) -> None:
+    elsewhere = path.parent.parent / "elsewhere"
+    path.rename(elsewhere)
+    path.symlink_to(elsewhere)
+
+
+def too_large(path: Path) -> None:
+    os.truncate(path, 1 << 40)
+
+
 def given_away(path: Path) -> None:
     os.chown(path, 54321, 54321)
 
@@ -67,9 +77,9 @@ DAMAGE: dict[str, Callable[[Path], None]] = {
 ON_UNIX: dict[str, Callable[[Path], None]] = {
     "link to itself": replaced(lambda path: path.symlink_to(path)),
     "link to nothing": replaced(lambda path: path.symlink_to(path.parent / "nothing")),
-    "link to the file": lambda path: path.rename(path.parent.parent / "f") and path.symlink_to(path.parent.parent / "f"),
+    "link to the file": moved_behind_a_link,
     "pipe": replaced(lambda path: os.mkfifo(path)),
-    "too large": replaced(lambda path: os.close(os.open(path, os.O_CREAT | os.O_WRONLY, 0o600)) or os.truncate(path, 1 << 40)),
+    "too large": too_large,
     "writable by the group": lambda path: path.chmod(0o620),
     "writable by all": lambda path: path.chmod(0o602),
 }  # fmt: skip

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ import pytest
 from sphear.engine.cache import cache_directory, files
 from sphear.errors import SphearError
 from sphear.studies.kept import runs_folder
-from tests.engine.cached import Cache, cache
+from tests.engine.cached import TEXT, Cache, cache
 
 __all__ = ["cache"]
 
@@ -73,9 +74,15 @@ def wrong_name(folder: Path) -> None:
     folder.write_text("a file, not a folder", encoding="utf-8")
 
 
+def loop_of_links(folder: Path) -> None:
+    folder.symlink_to(folder)
+
+
 @posix
-@pytest.mark.parametrize("make", [wrong_name, lambda folder: folder.symlink_to(folder)], ids=["file", "loop of links"])
-def test_one_folder_a_user_serves_instead_and_not_one_a_process(make, cache: Cache, temporary: Path) -> None:
+@pytest.mark.parametrize("make", [wrong_name, loop_of_links])
+def test_one_folder_a_user_serves_instead_and_not_one_a_process(
+    make: Callable[[Path], None], cache: Cache, temporary: Path
+) -> None:
     make(cache.folder)
     assert not cache.found()
     assert cache.found()
@@ -169,8 +176,6 @@ for limit in (0, 100, 5000):
 
 @posix
 def test_files_that_may_not_grow(tmp_path: Path) -> None:
-    from tests.engine.cached import TEXT
-
     command = [sys.executable, "-c", LIMITED, str(tmp_path), TEXT]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
@@ -180,6 +185,15 @@ def test_files_that_may_not_grow(tmp_path: Path) -> None:
     assert [line.partition(" (")[0] for line in lines if not line.startswith("42")] == [
         f"compiled code cannot be kept in {tmp_path / str(limit)}" for limit in (0, 100, 5000)
     ]
+
+
+def test_processes_that_compile_the_same_at_once_are_all_right(cache: Cache) -> None:
+    code = "import sys; from sphear.engine.cache import generated_module as m; print(m(sys.argv[1]).double(21))"
+    command = [sys.executable, "-c", code, TEXT]
+    both = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    assert [process.communicate()[0] for process in both] == ["42\n", "42\n"]
+    assert sorted(path.suffix for path in cache.folder.iterdir()) == [".code", ".py"]
+    assert cache.found()
 
 
 def test_what_killed_processes_left_is_removed_after_an_hour(cache: Cache) -> None:

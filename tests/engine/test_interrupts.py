@@ -27,6 +27,16 @@ def stop(number: int, frame: object) -> None:
     raise Stopped(number)
 
 
+def hit_while_deferred(number: signal.Signals, reached: list[int]) -> None:
+    """A signal in the midst of an inner and an outer block, both of which go on to their end."""
+    with deferred_signals():
+        with deferred_signals():
+            os.kill(os.getpid(), number)
+            reached.append(1)
+        os.kill(os.getpid(), number)
+        reached.append(2)
+
+
 @pytest.fixture(autouse=True)
 def handlers() -> Iterator[None]:
     before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
@@ -37,24 +47,20 @@ def handlers() -> Iterator[None]:
 
 
 def test_ctrl_c_waits_for_the_end_of_the_block() -> None:
-    reached = []
-    with pytest.raises(KeyboardInterrupt), deferred_signals():
-        with deferred_signals():
-            os.kill(os.getpid(), signal.SIGINT)
-        os.kill(os.getpid(), signal.SIGINT)
-        reached.append(1)
-    assert reached == [1]
+    reached: list[int] = []
+    with pytest.raises(KeyboardInterrupt):
+        hit_while_deferred(signal.SIGINT, reached)
+    assert reached == [1, 2]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_other_signals_wait_where_they_have_a_handler(number: signal.Signals) -> None:
     signal.signal(number, stop)
-    reached = []
-    with pytest.raises(Stopped, match=str(int(number))), deferred_signals():
-        os.kill(os.getpid(), number)
-        reached.append(1)
-    assert reached == [1]
+    reached: list[int] = []
+    with pytest.raises(Stopped, match=str(int(number))):
+        hit_while_deferred(number, reached)
+    assert reached == [1, 2]
     assert signal.getsignal(number) is stop
 
 
@@ -88,7 +94,8 @@ def test_ctrl_c_while_compiling_is_heard_when_the_code_is_there(
         os.kill(os.getpid(), signal.SIGINT)
         return usual(*arguments)
 
-    with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
-        patched.setattr(MachineCode, moment, interrupted)
+    monkeypatch.setattr(MachineCode, moment, interrupted)
+    with pytest.raises(KeyboardInterrupt):
         cache.found()
+    monkeypatch.setattr(MachineCode, moment, usual)
     assert cache.found()

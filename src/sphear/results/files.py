@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from glob import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +15,8 @@ from sphear.results.table import Table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+STALE = 3600.0  # seconds after which a file that is being written is one of a process that was killed
 
 
 class OutputFolder:
@@ -60,6 +64,7 @@ class OutputFolder:
         partial = self.path / f".{name}.{os.getpid()}.partial"
         try:
             self.path.mkdir(parents=True, exist_ok=True)
+            self._remove_stale(name)
             yield partial
             partial.replace(path)
         except OSError as error:
@@ -68,3 +73,10 @@ class OutputFolder:
             with suppress(OSError):
                 partial.unlink()
         self.files.append(path)
+
+    def _remove_stale(self, name: str) -> None:
+        """Remove what processes that were killed have left half-written of a file."""
+        for partial in self.path.glob(f".{escape(name)}.*.partial"):
+            with suppress(OSError):
+                if time.time() - partial.stat().st_mtime > STALE:
+                    partial.unlink()

@@ -69,7 +69,7 @@ def _fault(folder: Path, status: Callable[[Path], os.stat_result]) -> str:
         found = status(folder)
     except (OSError, RuntimeError, ValueError) as error:  # a loop of links; a name with a zero byte
         return f"there is no such folder ({getattr(error, 'strerror', None) or error})"
-    if not folder.is_dir() or folder.is_symlink() and status is Path.lstat:
+    if not folder.is_dir() or (folder.is_symlink() and status is Path.lstat):
         return "there is no such folder (Not a directory)"
     if not is_private(found):
         return "it belongs to another user" if found.st_uid != os.geteuid() else "others may write to it"
