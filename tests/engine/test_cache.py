@@ -13,7 +13,7 @@ import pytest
 
 from sphear import Neighbours
 from sphear.engine import cache
-from sphear.engine.cache import cache_directory, generated_module
+from sphear.engine.cache import cache_directory, generated, generated_module
 from sphear.engine.sweep import sweep
 
 # the sum of a formula over a row of particles, in a process of its own
@@ -51,14 +51,14 @@ def run(folder: Path, formula: str, **environment: str) -> str:
 
 def machine_code(folder: Path) -> dict[str, int]:
     """The files of the code cache, with the time each was written."""
-    return {path.name: path.stat().st_mtime_ns for path in folder.rglob("*") if path.suffix in (".py", ".nbi", ".nbc")}
+    return {path.name: path.stat().st_mtime_ns for path in folder.rglob("*") if path.suffix in (".py", ".code")}
 
 
 def test_a_second_process_compiles_nothing_and_an_edited_formula_is_compiled_anew(tmp_path: Path) -> None:
     # sets are printed in another order by another hash seed: the text, and so its name, must not depend on it
     assert run(tmp_path, "other.mass", PYTHONHASHSEED="1") == SUMS["other.mass"]
     first = machine_code(tmp_path / "cache")
-    assert any(name.endswith(".nbc") for name in first)
+    assert any(name.endswith(".code") for name in first)
     assert run(tmp_path, "other.mass", PYTHONHASHSEED="2") == SUMS["other.mass"]
     assert machine_code(tmp_path / "cache") == first
     assert run(tmp_path, "own.mass") == SUMS["own.mass"]
@@ -75,16 +75,35 @@ def test_a_cache_folder_that_cannot_be_written_to_is_done_without(tmp_path: Path
     assert machine_code(tmp_path / "temporary")
 
 
+def test_a_process_that_finds_every_file_damaged_is_right_and_mends_them(tmp_path: Path) -> None:
+    run(tmp_path, "other.mass")
+    files = sorted((tmp_path / "cache").iterdir())
+    contents = {path: path.read_bytes() for path in files}
+    for number, path in enumerate(files):
+        path.write_bytes((b"", contents[path][: len(contents[path]) // 2], bytes(100))[number % 3])
+    assert run(tmp_path, "other.mass") == SUMS["other.mass"]
+    texts = [path for path in files if path.suffix == ".py"]
+    assert [path.read_bytes() for path in texts] == [contents[path] for path in texts]
+    mended = machine_code(tmp_path / "cache")
+    assert run(tmp_path, "other.mass") == SUMS["other.mass"]
+    assert machine_code(tmp_path / "cache") == mended
+
+
 def test_a_read_only_installation_without_a_home_still_works(tmp_path: Path) -> None:
-    """Code compiled from files of the package itself has its cache beside them or in the home folder, if it can."""
-    package = Path(cache.__file__).parents[1]
+    """Code compiled from files of the package itself is in the same cache, not beside them."""
+    package = Path(cache.__file__).parents[2]
     for source in package.rglob("*.py"):
         copy = tmp_path / "installed" / "sphear" / source.relative_to(package)
         copy.parent.mkdir(parents=True, exist_ok=True)
         copy.write_bytes(source.read_bytes())
         (copy.parent / "__pycache__").touch()  # a file where the folder would be
     blocked = {name: str(tmp_path / "formula.py") for name in ("HOME", "XDG_CACHE_HOME", "LOCALAPPDATA")}
-    assert run(tmp_path, "other.mass", PYTHONPATH=str(tmp_path / "installed"), **blocked) == SUMS["other.mass"]
+    (tmp_path / "cache").touch()
+    (tmp_path / "temporary").mkdir()
+    blocked |= {"PYTHONPATH": str(tmp_path / "installed"), "TMPDIR": str(tmp_path / "temporary")}
+    assert run(tmp_path, "other.mass", **blocked) == SUMS["other.mass"]
+    assert machine_code(tmp_path / "temporary")
+    assert not machine_code(tmp_path / "installed" / "sphear" / "neighbours" / "__pycache__")
 
 
 def test_formulas_of_the_same_name_are_told_apart_within_a_process() -> None:
@@ -107,7 +126,7 @@ def test_the_cache_folder_is_the_one_asked_for(no_cache_variables: pytest.Monkey
     no_cache_variables.setenv("XDG_CACHE_HOME", str(tmp_path / "xdg"))
     no_cache_variables.setenv("SPHEAR_CACHE_DIR", str(tmp_path / "asked" / "for"))
     assert cache_directory() == tmp_path / "asked" / "for"
-    assert cache_directory().is_dir()
+    assert (tmp_path / "asked" / "for").is_dir()
 
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="other platforms have other cache folders")
@@ -131,6 +150,6 @@ def test_a_generated_module_is_named_by_its_text(no_cache_variables: pytest.Monk
 def test_generated_code_says_which_engine_it_belongs_to(no_cache_variables: pytest.MonkeyPatch, tmp_path: Path) -> None:
     no_cache_variables.setenv("SPHEAR_CACHE_DIR", str(tmp_path))
     old = generated_module("y = 1\n")
-    no_cache_variables.setattr(cache, "stamp", lambda: "another")
+    no_cache_variables.setattr(generated, "stamp", lambda: "another")
     generated_module.cache_clear()
     assert generated_module("y = 1\n").__name__ != old.__name__

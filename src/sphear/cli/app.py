@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 import typer
 
 from sphear.cli.listing import list_names
+from sphear.cli.notices import say_notices
 from sphear.cli.patch_test import patch_test
 from sphear.cli.reproduce import reproduce
 from sphear.cli.run import run as run_case
@@ -55,14 +57,18 @@ def run() -> int:
     Raises:
         SphearError: a user's mistake, wrong options included.
         KeyboardInterrupt: Ctrl-C.
+        EOFError: something ended too early.
     """
+    say_notices(as_json="--json" in sys.argv)
     try:
         status = app(standalone_mode=False, prog_name="sphear")
     except _UsageError as error:
         text = error.format_message().rstrip(".")
         where = f" (see {error.ctx.command_path} --help)" if getattr(error, "ctx", None) else ""
         raise SphearError(f"{text[:1].lower()}{text[1:]}{where}") from None
-    except typer.Abort:
+    except typer.Abort as abort:
+        if isinstance(abort.__cause__, EOFError):  # of a file, say: nobody has interrupted anything
+            raise abort.__cause__ from None
         raise KeyboardInterrupt from None
     if status == _INTERRUPTED:
         raise KeyboardInterrupt

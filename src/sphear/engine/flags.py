@@ -7,7 +7,7 @@ import llvmlite.binding as llvm
 # all of fast-math but one thing: results are stored as they are, so an overflow still shows as inf
 FASTMATH = ("nnan", "ninf", "nsz", "arcp", "contract", "reassoc", "afn")
 
-OPTIONS = {"fastmath": set(FASTMATH), "error_model": "numpy", "nogil": True, "cache": True}
+OPTIONS = {"fastmath": set(FASTMATH), "error_model": "numpy", "nogil": True}
 
 
 def options_text(strict: bool = False) -> str:

@@ -8,7 +8,7 @@ from sphear.engine.formula import TracedFormula
 _HEAD = '''
 """{title}"""
 
-from numba import njit
+from sphear.engine.cache import njit
 from sphear.engine.lanes import exp, first_lanes, lane_zeros, lanes_sum, positive_part, sqrt, where_less
 from sphear.engine.records import record_adder, record_loader
 

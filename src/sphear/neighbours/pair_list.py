@@ -19,7 +19,7 @@ Array = np.ndarray[Any, Any]
 SLACK = 16  # entries that may be written or read behind the last listed one
 
 _BUILD = """
-from numba import njit
+from sphear.engine.cache import njit
 from sphear.engine.selection import between, load_lanes, once_only, population, store_selected
 
 

@@ -21,12 +21,13 @@ _RATES = '''
 """{title}"""
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from {list_module} import build
 {imports}
 from sphear.boundaries.box import with_images
 from sphear.boundaries.mirror import mirror_velocities, wall_nodes
 from sphear.boundaries.wall_velocity import {wall_velocity} as fit
+from sphear.engine.cache import njit
 from sphear.engine.dense import solve_normal_equations
 from sphear.neighbours.cells import sorted_cells
 from sphear.schemes.state import Change, Fields

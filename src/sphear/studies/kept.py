@@ -61,7 +61,10 @@ def runs_folder(paper: str) -> Path:
     from sphear.engine.cache import cache_directory
 
     chosen = os.environ.get("SPHEAR_RUNS_DIR")
-    folder = (Path(chosen) if chosen else cache_directory() / "runs") / paper
+    caches = Path(chosen) if chosen else cache_directory()
+    if caches is None:
+        raise SphearError("there is no folder to keep runs in: name one in SPHEAR_RUNS_DIR")
+    folder = (caches if chosen else caches / "runs") / paper
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 
 from sphear.engine.cache import compiled
+from sphear.pressure.preconditioners.coarsest import pseudo_inverse
 from sphear.pressure.preconditioners.transfer import corners, deposit, interpolate_and_add
 
 Array = np.ndarray[Any, Any]
 
 COARSEST = 32  # nodes or fewer are solved at once
-NULL = 1e-10  # relative to the largest, an eigenvalue that is zero: of the constant, where no pressure is fixed
+NULL = 1e-10  # relative to the largest, a pivot that is zero: of the constant, where no pressure is fixed
 
 
 @compiled
@@ -128,7 +129,7 @@ class PartlyFilled:
         for side in range(beside.shape[1]):
             np.add.at(matrix, (np.arange(len(share)), beside[:, side]), -coupling[:, side])
         matrix[np.diag_indices(len(share))] += np.divide(1.0, inverse, out=np.zeros_like(inverse), where=inverse > 0)
-        self.coarsest = np.linalg.pinv(matrix, rcond=NULL, hermitian=True)
+        self.coarsest = pseudo_inverse(matrix, NULL)
 
     def __call__(self, source: Array) -> Array:
         """Nearly the solution (nodes,) for a source (nodes,)."""
