@@ -15,6 +15,7 @@ from sphear.schemes.settings import FlowSettings
 if TYPE_CHECKING:
     from sphear.kernels import Kernel
     from sphear.schemes.problem import Problem
+    from sphear.viscosity import ViscousTerm
 
 Settings = FlowSettings | IncompressibleSettings
 
@@ -34,6 +35,7 @@ class FlowInTime(Protocol):
     Attributes:
         problem: what is computed.
         kernel: with its smoothing length.
+        term: the viscous one.
         time: reached.
         steps: made.
         time_step: of the steps.
@@ -44,6 +46,7 @@ class FlowInTime(Protocol):
 
     problem: Problem
     kernel: Kernel
+    term: ViscousTerm
     time: float
     steps: int
     time_step: float
@@ -66,6 +69,10 @@ class FlowInTime(Protocol):
     @property
     def pressure(self) -> Array:
         """(N,)."""
+
+    @staticmethod
+    def limits_of(problem: Problem, settings: Any, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
+        """The time steps that each condition allows in another problem with the same particles."""
 
     def advance(self, steps: int) -> None:
         """Make steps."""

@@ -57,6 +57,7 @@ class FlowCase:
         time_name: how that time is called.
         metrics: errors and the like at one moment, by name.
         ended: why a run is over at one moment, from its metrics: "steady", "failed: ...", what else ends it, or None.
+        ends: what `ended` may say beside "steady" and "failed: ...".
         summary: what is found at the end, beside the metrics.
         profiles: numbers along lines, at the end, that are kept with the results of a sweep.
         headline: the metric that is drawn against time.
@@ -73,6 +74,7 @@ class FlowCase:
     time_name: str
     metrics: Callable[[Settings, FlowInTime], dict[str, float]]
     ended: Callable[[Settings, FlowInTime, dict[str, float]], str | None]
+    ends: tuple[str, ...] = ()
     summary: Callable[[Settings, FlowInTime], dict[str, float]] = lambda settings, flow: {}
     profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"
