@@ -71,7 +71,7 @@ def test_a_socket_that_says_nothing_is_not_waited_for_long(sweep: Sweep, monkeyp
     monkeypatch.setattr(sphear.sweeps.cluster, "CONNECT", 0.5)
     with socket.create_server(("127.0.0.1", 0)) as mute:
         address = f"tcp://127.0.0.1:{mute.getsockname()[1]}"
-        with pytest.raises(SphearError, match="does not answer: nothing came within 0.5 s"):
+        with pytest.raises(SphearError, match=r"does not answer: nothing came within 0\.5 s"):
             sweep([10], scheduler=address)
 
 
@@ -81,9 +81,11 @@ def test_a_scheduler_without_workers_is_waited_for_with_a_word_and_an_end(
     monkeypatch.setattr(sphear.sweeps.cluster, "PATIENCE", 0.5)
     monkeypatch.setattr(sphear.sweeps.cluster, "LOOK", 0.1)
     said: list[str] = []
-    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None, silence_logs=50) as cluster:
-        with pytest.raises(SphearError, match="has had no workers for 0.5 s: start some with dask worker"):
-            sweep([10], scheduler=cluster.scheduler_address, say=said.append)
+    with (
+        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None, silence_logs=50) as cluster,
+        pytest.raises(SphearError, match=r"has had no workers for 0\.5 s: start some with dask worker"),
+    ):
+        sweep([10], scheduler=cluster.scheduler_address, say=said.append)
     assert len(said) == 1
     assert "has no workers: they are waited for, 0.5 s at most" in said[0]
 

@@ -97,7 +97,7 @@ def test_a_flow_is_started_once_for_all_reynolds_numbers_times_and_seeds(monkeyp
 
 
 def test_a_time_step_beyond_the_limit_of_one_run_is_refused() -> None:
-    with pytest.raises(SphearError, match="the time step of 0.001 is beyond the [a-z]+ limit"):
+    with pytest.raises(SphearError, match=r"the time step of 0\.001 is beyond the [a-z]+ limit"):
         plan("taylor-green", {"reynolds": [100.0, 0.01]}, {"time_step": 0.001, "resolution": 16})
 
 
