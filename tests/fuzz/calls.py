@@ -115,7 +115,7 @@ def _operator(draw: Draw, _folder: Path) -> Made:
     if name == "interpolate":
         choices["at"] = ("a", object(), np.zeros((3, 3)), [[float("nan"), 0.0]], np.zeros((2, 2, 2)), [[1j, 0]], {})
     if name == "viscous_acceleration":
-        bad = (-1.0, float("nan"), float("inf"), "a", f[:-1], [], object(), 1j)
+        bad: tuple[Any, ...] = (-1.0, float("nan"), float("inf"), "a", f[:-1], [], object(), 1j)
         choices |= {"dynamic_viscosity": bad, "density": (*bad, 0.0)}
     which = draw.choice(("positions", "values", *choices))
     arguments, named = [x, fields], dict[str, Any]()
@@ -252,7 +252,7 @@ def _sweep(draw: Draw, folder: Path) -> Made:
 
     (folder / "taken").touch()
     right = {"seed": [1, 2]}
-    over = draw.choice((
+    over: Any = draw.choice((
         {"reynolds": [1, draw.choice(NO_POSITIVE)]}, {"seed": []}, {"seed": "12"}, {"seed": 3}, {"seed": None}, None, 3,
         {"q": [1]}, {3: [1]}, {"kernel": ["q"]}, {"kernel": [None]}, {"resolution": [10**3, 0]}, [("seed", [1])], "ab",
         {"seed": {1: 2}}, {"seed": 1.5}, {"seed": range(10**6)}, {"scheme": ["q"]},
@@ -265,7 +265,7 @@ def _sweep(draw: Draw, folder: Path) -> Made:
         lambda: _call(run_sweep, [], Store(folder), workers=draw.choice(NO_COUNT)),
         lambda: _call(run_sweep, plan("cavity", right), Store(folder), scheduler=draw.choice((3, "a", "tcp://", "x://y:1"))),
         lambda: _call(run_sweep, runs, Store(folder)), lambda: _call(run_sweep, [], draw.choice((None, "a", 3))),
-        lambda: _call(Store, draw.choice((None, 3, folder / "taken", 1.5, "", "x" * 300, "a\x00b", []))),
+        lambda: _call(Store, draw.choice((None, 3, folder / "taken", 1.5, "x" * 300, "a\x00b", []))),
     ))()  # fmt: skip
 
 

@@ -71,12 +71,14 @@ def test_the_cost_of_a_run_does_not_know_of_the_others() -> None:
     """Time steps are found without starting each flow; started alone, each gives the same."""
     for case, fixed in (("poiseuille", {}), ("cavity", {"resolution": 12}), ("taylor-green", {"resolution": 16})):
         for scheme in FLOWS[case].defaults:
-            over = {"reynolds": [0.5, 300.0], "until": [0.1, 2.0], "time_step": [None, 1e-6]}
+            over: dict[str, Any] = {"reynolds": [0.5, 300.0], "until": [0.1, 2.0], "time_step": [None, 1e-6]}
             runs = plan(case, over, {"scheme": scheme, **fixed})
             assert len(runs) == 8
             for planned in runs:
                 alone = FlowRun(FLOWS[case], planned.settings)
-                steps = min(planned.settings.until * alone.unit / alone.flow.time_step, planned.settings.max_steps)
+                steps = min(
+                    (planned.settings.until or 0.0) * alone.unit / alone.flow.time_step, planned.settings.max_steps
+                )
                 assert planned.cost == pytest.approx(len(alone.flow.positions) * steps)
 
 
@@ -89,7 +91,7 @@ def test_a_flow_is_started_once_for_all_reynolds_numbers_times_and_seeds(monkeyp
         start(self, case, settings)
 
     monkeypatch.setattr(FlowRun, "__init__", counted)
-    over = {"reynolds": [0.1, 0.2, 0.3], "resolution": [10, 12], "seed": range(5), "until": [0.1, 0.2]}
+    over: dict[str, Any] = {"reynolds": [0.1, 0.2, 0.3], "resolution": [10, 12], "seed": range(5), "until": [0.1, 0.2]}
     told: list[tuple[int, int]] = []
     assert len(plan("poiseuille", over, {}, lambda planned, of: told.append((planned, of)))) == 60
     assert started == [10, 12]

@@ -6,13 +6,14 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Sized
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError
+from sphear.positive import shown
 from sphear.sweeps.cost import Costs
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
@@ -106,12 +107,8 @@ def plan(
     from sphear.cases.flow import FLOWS
     from sphear.cases.flow.chosen import flow_settings
 
-    fixed = fixed or {}
-    for key, values in over.items():
-        if key in fixed:
-            raise SphearError(f"the setting {key} is both fixed and swept over: choose one")
-        if isinstance(values, str) or not len(values):
-            raise SphearError(f"the setting {key} needs a list of at least one value to sweep over")
+    fixed = {} if fixed is None else fixed
+    _check(over, fixed)
     chosen = FLOWS[case]
     combinations = math.prod(len(values) for values in over.values())
     if combinations > MOST:
@@ -129,3 +126,15 @@ def plan(
         if number % TOLD_EVERY == 0:
             progress(number, combinations)
     return list(runs.values())
+
+
+def _check(over: Any, fixed: Any) -> None:
+    """Refuse values that are not by setting, or no lists, and settings that are both fixed and gone through."""
+    for what, settings in (("values to sweep over", over), ("fixed settings", fixed)):
+        if not isinstance(settings, Mapping) or not all(isinstance(key, str) for key in settings):
+            raise SphearError(f"the {what} are a mapping with names of settings, not {shown(settings)}")
+    for key, values in over.items():
+        if key in fixed:
+            raise SphearError(f"the setting {key} is both fixed and swept over: choose one")
+        if isinstance(values, str | Mapping) or not isinstance(values, Sized) or not len(values):
+            raise SphearError(f"the setting {key} needs a list of at least one value to sweep over")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 from sphear.results.finite import finite
@@ -65,7 +65,7 @@ def of_record(record: Any) -> SweepResult | None:
     whole = finite(record)
     if shape_fault(whole):
         return None
-    return SweepResult(**{key: value for key, value in whole.items() if key != "format"})
+    return SweepResult(**{part.name: whole[part.name] for part in fields(SweepResult) if part.name in whole})
 
 
 def lost(run: Run, reason: str, attempts: int = 0) -> SweepResult:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError
+from sphear.positive import shown
 from sphear.sweeps.cluster import on_cluster
 from sphear.sweeps.events import Finished, Lost, Started
 from sphear.sweeps.pool import on_processes
@@ -65,8 +66,7 @@ def run_sweep(
         SphearError: settings do not go together, workers or the scheduler cannot be used, or a file not be written.
         KeyboardInterrupt: Ctrl-C.
     """
-    if workers < 1:
-        raise SphearError(f"workers must be at least 1, not {workers}")
+    _check(runs, store, workers, scheduler)
     results, attempts = _stored(runs, store, say)
     todo = list({run.key: run for run in runs if run.key not in results}.values())
     todo.sort(key=lambda run: run.cost, reverse=longest_first)
@@ -85,6 +85,23 @@ def run_sweep(
                     tracker.ended(event, result)
                 progress(tracker.state())
     return [results.get(run.key) or lost(run, "it was never started") for run in runs]
+
+
+def _check(runs: Any, store: Any, workers: Any, scheduler: Any) -> None:
+    """Refuse what a program gave in place of runs, a store, a number of workers or an address."""
+    from sphear.sweeps.plan import Run
+    from sphear.sweeps.store import Store
+
+    if not isinstance(runs, Iterable) or not all(isinstance(run, Run) for run in runs):
+        raise SphearError(f"a sweep computes a list of runs, as plan(...) gives it, not {shown(runs)}")
+    if not isinstance(store, Store):
+        raise SphearError(f"the results of a sweep are kept in a Store(folder), not in {shown(store)}")
+    if not isinstance(workers, int) or isinstance(workers, bool):
+        raise SphearError(f"workers must be a whole number, at least 1, not {shown(workers)}")
+    if workers < 1:
+        raise SphearError(f"workers must be at least 1, not {shown(workers)}")
+    if scheduler is not None and not isinstance(scheduler, str):
+        raise SphearError(f"the address of a scheduler is text, such as tcp://host:8786, not {shown(scheduler)}")
 
 
 def _stored(

@@ -13,7 +13,7 @@ FORMAT = 1  # of stored results; files that do not say are of the first
 ENDS = ("steady", "time", "steps")
 SHOWN = 60  # letters of what is refused
 _PARTS = {"case": str, "settings": dict, "metrics": dict, "end": str, "performance": dict, "history": list}
-_MAY = {"profiles", "format"}
+_MAY = {"profiles", "format", "versions"}
 
 
 def shape_fault(record: Any) -> str | None:
@@ -40,6 +40,9 @@ def shape_fault(record: Any) -> str | None:
     profiles = record.get("profiles", {})
     if not isinstance(profiles, dict) or not all(isinstance(values, list) for values in profiles.values()):
         return "its profiles are no lists"
+    versions = record.get("versions", {})
+    if not isinstance(versions, dict) or not all(isinstance(text, str) for text in versions.values()):
+        return "its versions are no text"
     for name, values in profiles.items():
         if fault := _not_numbers(f"profile {_short(name)}", dict(enumerate(values))):
             return fault
