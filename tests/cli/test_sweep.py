@@ -48,7 +48,10 @@ def test_the_csv_file_has_the_rows(sphear: Run) -> None:
     found = sphear(*SMALL, *OVER, "--json").json()
     with Path("results/sweep.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
-    assert list(rows[0]) == ["viscosity", "resolution", "end", "time", "rms_error"]
+    more = ["failure_time", "seconds", "file"]
+    assert list(rows[0]) == ["viscosity", "resolution", "end", "time", "rms_error", *more]
+    assert [row["file"] for row in rows] == [row["file"] for row in found["runs"]]
+    assert [float(row["seconds"]) for row in rows] == [row["performance"]["seconds"] for row in found["runs"]]
     assert [float(row["rms_error"]) for row in rows] == [row["metrics"]["rms_error"] for row in found["runs"]]
 
 
@@ -109,6 +112,7 @@ def test_ctrl_c_says_how_to_go_on(tmp_path: Path) -> None:
 
 
 CASE = ["poiseuille", "--out", "results"]
+THOUSAND = "reynolds=" + ",".join(str(number) for number in range(1, 1001))
 WRONG: dict[str, tuple[list[str], str]] = {
     "no case": (["--out", "results"], "missing argument 'CASE'"),
     "unknown case": (["poisseuille", "--over", "resolution=10", "--out", "r"], "did you mean poiseuille"),
@@ -130,6 +134,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "half a worker": ([*CASE, "--over", "reynolds=1", "--workers", "0.5"], "invalid value for '--workers'"),
     "two ways": ([*CASE, "--over", "reynolds=1", "--workers", "2", "--scheduler", "tcp://a:1"], "choose one"),
     "no address": ([*CASE, "--over", "reynolds=1", "--scheduler", ""], "--scheduler needs an address"),
+    "too many": ([*CASE, "--over", THOUSAND, "--over", "seed=" + ",".join(map(str, range(101)))], "1000 x 101 values"),
     "no scheduler": ([*CASE, "--over", "reynolds=1", "--scheduler", "nonsense://a"], "nonsense://a"),
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -64,6 +65,29 @@ def test_a_scheduler_that_does_not_answer_is_one_sentence(
     monkeypatch.setattr(sphear.sweeps.cluster, "CONNECT", 1.0)
     with pytest.raises(SphearError, match="does not answer"):
         sweep([10], scheduler=address)
+
+
+def test_a_socket_that_says_nothing_is_not_waited_for_long(sweep: Sweep, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sphear.sweeps.cluster, "CONNECT", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as mute:
+        address = f"tcp://127.0.0.1:{mute.getsockname()[1]}"
+        with pytest.raises(SphearError, match=r"does not answer: nothing came within 0\.5 s"):
+            sweep([10], scheduler=address)
+
+
+def test_a_scheduler_without_workers_is_waited_for_with_a_word_and_an_end(
+    sweep: Sweep, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sphear.sweeps.cluster, "PATIENCE", 0.5)
+    monkeypatch.setattr(sphear.sweeps.cluster, "LOOK", 0.1)
+    said: list[str] = []
+    with (
+        distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None, silence_logs=50) as cluster,
+        pytest.raises(SphearError, match=r"has had no workers for 0\.5 s: start some with dask worker"),
+    ):
+        sweep([10], scheduler=cluster.scheduler_address, say=said.append)
+    assert len(said) == 1
+    assert "has no workers: they are waited for, 0.5 s at most" in said[0]
 
 
 def test_without_dask_the_extra_is_named(sweep: Sweep, monkeypatch: pytest.MonkeyPatch) -> None:

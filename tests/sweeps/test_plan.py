@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FLOWS
+from sphear.cases.flow import FLOWS, FlowRun
 from sphear.errors import SphearError
 from sphear.sweeps import Run, plan
 
@@ -67,12 +67,54 @@ def test_longer_runs_cost_more() -> None:
     assert run(max_steps=10).cost == pytest.approx(400 * 10)
 
 
+def test_the_cost_of_a_run_does_not_know_of_the_others() -> None:
+    """Time steps are found without starting each flow; started alone, each gives the same."""
+    for case, fixed in (("poiseuille", {}), ("cavity", {"resolution": 12}), ("taylor-green", {"resolution": 16})):
+        for scheme in FLOWS[case].defaults:
+            over: dict[str, Any] = {"reynolds": [0.5, 300.0], "until": [0.1, 2.0], "time_step": [None, 1e-6]}
+            runs = plan(case, over, {"scheme": scheme, **fixed})
+            assert len(runs) == 8
+            for planned in runs:
+                alone = FlowRun(FLOWS[case], planned.settings)
+                steps = min(
+                    (planned.settings.until or 0.0) * alone.unit / alone.flow.time_step, planned.settings.max_steps
+                )
+                assert planned.cost == pytest.approx(len(alone.flow.positions) * steps)
+
+
+def test_a_flow_is_started_once_for_all_reynolds_numbers_times_and_seeds(monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[int] = []
+    start = FlowRun.__init__
+
+    def counted(self: FlowRun, case: Any, settings: Any) -> None:
+        started.append(settings.resolution)
+        start(self, case, settings)
+
+    monkeypatch.setattr(FlowRun, "__init__", counted)
+    over: dict[str, Any] = {"reynolds": [0.1, 0.2, 0.3], "resolution": [10, 12], "seed": range(5), "until": [0.1, 0.2]}
+    told: list[tuple[int, int]] = []
+    assert len(plan("poiseuille", over, {}, lambda planned, of: told.append((planned, of)))) == 60
+    assert started == [10, 12]
+    assert told == [(0, 60), (20, 60), (40, 60)]
+
+
+def test_a_time_step_beyond_the_limit_of_one_run_is_refused() -> None:
+    with pytest.raises(SphearError, match=r"the time step of 0\.001 is beyond the [a-z]+ limit"):
+        plan("taylor-green", {"reynolds": [100.0, 0.01]}, {"time_step": 0.001, "resolution": 16})
+
+
 WRONG: dict[str, tuple[str, dict[str, Any], dict[str, Any], str]] = {
     "case": ("poisseuille", {"resolution": [10]}, {}, "no case named 'poisseuille': did you mean poiseuille"),
     "key": ("poiseuille", {"resolutoin": [10]}, {}, "no setting named 'resolutoin': did you mean resolution"),
     "fixed key": ("poiseuille", {"resolution": [10]}, {"kernl": 1}, "no setting named 'kernl': did you mean kernel"),
     "no values": ("poiseuille", {"resolution": []}, {}, "the setting resolution needs a list of at least one value"),
     "text": ("poiseuille", {"kernel": "cubic"}, {}, "the setting kernel needs a list"),
+    "many": (
+        "couette",
+        {"seed": range(400), "reynolds": range(1, 401)},
+        {},
+        "at most 100000 runs, and 400 x 400 values",
+    ),
     "both": ("poiseuille", {"reynolds": [1]}, {"reynolds": 2}, "the setting reynolds is both fixed and swept over"),
     "value": ("poiseuille", {"reynolds": [1, -1]}, {}, "the setting reynolds should be greater than 0, not -1"),
     "name": ("poiseuille", {"viscosity": ["morris", "moris"]}, {}, "no viscosity named 'moris': did you mean morris"),

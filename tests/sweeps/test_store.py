@@ -34,11 +34,25 @@ def test_a_run_that_failed_is_a_result(sweep: Sweep, calls: Calls) -> None:
     assert calls() == [FAILS]
 
 
-def test_a_run_that_was_lost_is_computed_again(sweep: Sweep, calls: Calls, store: Store) -> None:
-    for _ in range(2):
-        assert [result.lost for result in sweep([KILLS, RAISES])] == [True, True]
-    assert sorted(calls()) == [KILLS, KILLS, RAISES, RAISES]
+def test_a_run_whose_worker_was_killed_is_computed_again_each_time(sweep: Sweep, calls: Calls, store: Store) -> None:
+    for _ in range(3):
+        assert [result.lost for result in sweep([KILLS])] == [True]
+    assert calls() == [KILLS, KILLS, KILLS]
     assert not store.folder.path.exists()
+
+
+def test_a_run_that_ended_with_an_exception_is_tried_once_more_and_says_why(sweep: Sweep, calls: Calls) -> None:
+    said: list[str] = []
+    reason = "ZeroDivisionError: there is nothing to divide by"
+    for _ in range(3):
+        (result,) = sweep([RAISES], say=said.append)
+        assert result.end == f"lost: {reason}"
+    assert calls() == [RAISES, RAISES]
+    assert [sentence.split(" (")[0] for sentence in said] == [
+        "1 run that ended with an exception is computed again",
+        "1 run has ended with an exception 2 times; remove the file for another attempt",
+    ]
+    assert all(reason in sentence for sentence in said)
 
 
 def test_what_is_new_is_computed_and_nothing_else(sweep: Sweep, calls: Calls) -> None:
@@ -60,8 +74,11 @@ def test_a_file_that_is_not_whole_is_ignored_and_replaced(text: str, sweep: Swee
     (run,) = runs([10])
     (result,) = sweep([10])
     store.path(run).write_text(text)
+    said: list[str] = []
     assert store.get(run) is None
-    assert sweep([10])[0].metrics == result.metrics
+    assert sweep([10], say=said.append)[0].metrics == result.metrics
+    assert len(said) == 1
+    assert "1 stored result is not its run's and is computed again" in said[0]
     assert store.get(run) is not None
 
 
@@ -103,6 +120,6 @@ def test_a_flow_is_stored_as_it_was_computed(store: Store) -> None:
     assert result.history[-1] == pytest.approx(alone["history"][-1])
     assert store.get(run) == result
     stored = json.loads(store.path(run).read_text())
-    assert list(stored) == ["case", "settings", "metrics", "end", "performance", "history"]
+    assert list(stored) == ["format", "case", "settings", "metrics", "end", "performance", "history"]
     assert stored["settings"]["sound_speed"] > 0
     assert of_record(stored) == result

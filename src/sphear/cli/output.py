@@ -29,6 +29,11 @@ def print_json(value: Any) -> None:
     print(json.dumps(finite(value), indent=2, allow_nan=False))
 
 
+def print_sentence(text: str) -> None:
+    """What is said beside results, on stderr, on one line."""
+    print(f"sphear: {' '.join(text.split())}", file=sys.stderr)
+
+
 def is_terminal(stream: TextIO | None) -> bool:
     """Whether someone is watching; a closed stream is None."""
     return stream is not None and stream.isatty()

@@ -2,9 +2,23 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 import typer
 
-from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, progress, write
+from sphear.cli.output import (
+    folder,
+    print_files,
+    print_json,
+    print_sentence,
+    print_tables,
+    print_text,
+    progress,
+    write,
+)
 from sphear.errors import Interrupted, SphearError
 
 
@@ -27,7 +41,7 @@ def reproduce(
     results = []
     shown: set[str] = set()  # a figure drawn from a table that was just printed does not print it again
     for name in wanted:
-        with progress(f"{paper} {name}") as tell:
+        with progress(f"{paper} {name}") as tell, _sentences():
             try:
                 result = studies.reproduce(paper, name, quick=quick, rerun=rerun, workers=workers, progress=tell)
             except KeyboardInterrupt:
@@ -45,3 +59,22 @@ def reproduce(
         print_json(results[0] if len(results) == 1 else results)
     elif files is not None:
         print_files(files)
+
+
+@contextmanager
+def _sentences() -> Iterator[None]:
+    """Say what sweeps warn of as the command line says things."""
+    from sphear.sweeps import SweepWarning
+
+    usual = warnings.showwarning
+
+    def show(message: Warning | str, category: type[Warning], *where: Any, **more: Any) -> None:
+        if issubclass(category, SweepWarning):
+            print_sentence(str(message))
+        else:
+            usual(message, category, *where, **more)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", SweepWarning)
+        warnings.showwarning = show
+        yield

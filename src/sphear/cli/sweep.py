@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import typer
 
-from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
+from sphear.cli.output import folder, print_files, print_json, print_sentence, print_tables, progress, write
 from sphear.cli.settings import changes, choices
 from sphear.errors import Interrupted, SphearError
 from sphear.versions import versions
@@ -46,17 +45,19 @@ def sweep(
         raise SphearError("--scheduler needs an address, such as tcp://host:8786")
     files = folder(out)
     assert files is not None
-    runs = plan(case, values, fixed)
     store = Store(files.path / "runs")
     last: list[SweepProgress] = []
-    with progress(f"sweep of {runs[0].case}") as tell:
+    with progress(f"sweep of {case}") as tell:
+        runs = plan(case, values, fixed, lambda planned, of: tell(f"{planned} of {of} runs planned"))
 
         def show(state: SweepProgress) -> None:
             last[:] = [state]
             tell(str(state))
 
         try:
-            results = run_sweep(runs, store, workers=workers or 1, scheduler=scheduler, progress=show)
+            results = run_sweep(
+                runs, store, workers=workers or 1, scheduler=scheduler, progress=show, say=print_sentence
+            )
         except KeyboardInterrupt:
             done = last[0].done if last else 0
             raise Interrupted(
@@ -65,7 +66,7 @@ def sweep(
             ) from None
     table = _table(runs, results, list(values))
     summary = _summary(runs, results, values, fixed)
-    write(files, "sweep", summary, [table], {})
+    write(files, "sweep", summary, [_whole(table, runs, results)], {})
     if as_json:
         print_json(summary)
     else:
@@ -85,7 +86,7 @@ def _summary(
             for key, value in result.as_dict().items()
             if key not in ("case", "history", "profiles", "versions")
         }
-        rows.append({"end": row.pop("end"), **row, "file": None if result.lost else f"runs/{run.key}.json"})
+        rows.append({"end": row.pop("end"), **row, "file": _file(run, result)})
     return {
         "case": runs[0].case,
         "over": {key: _values(runs, key) for key in over},
@@ -120,6 +121,22 @@ def _table(runs: Sequence[Run], results: Sequence[SweepResult], keys: Sequence[s
     return Table(f"Sweep of {case.name}, {len(runs)} runs", tuple(columns), rows)
 
 
+def _whole(table: Table, runs: Sequence[Run], results: Sequence[SweepResult]) -> Table:
+    """The table with what is not shown for want of room: when a flow failed, the seconds it took, where the run is."""
+    from sphear.results import Column, Table
+
+    rows = [
+        {**row, "seconds": result.performance.get("seconds"), "file": _file(run, result)}
+        for row, run, result in zip(table.rows, runs, results, strict=True)
+    ]
+    more = (Column("failure_time", "failure time"), Column("seconds", "seconds"), Column("file", "file"))
+    return Table(table.title, (*table.columns, *more), rows)
+
+
+def _file(run: Run, result: SweepResult) -> str | None:
+    return None if result.lost else f"runs/{run.key}.json"
+
+
 def _all_numbers(values: Sequence[Any]) -> bool:
     return all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
 
@@ -132,7 +149,11 @@ def _report_lost(results: Sequence[SweepResult]) -> None:
     """
     lost = [result for result in results if result.lost]
     if lost:
+        from sphear.sweeps.sweep import ATTEMPTS
+
         what = "1 run was" if len(lost) == 1 else f"{len(lost)} runs were"
         first = lost[0].end.removeprefix("lost: ")
-        print(f"sphear: {what} lost ({first}): the same command runs what is missing again", file=sys.stderr)
+        again = any(result.attempts < ATTEMPTS for result in lost)
+        then = ": the same command runs what is missing again" if again else ", and not for the first time"
+        print_sentence(f"{what} lost ({first}){then}")
         raise typer.Exit(LOST)

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from sphear.algebra import Matrix, Scalar, Vector, combine, identity, outer, scale, sqrt
 from sphear.errors import SphearError
+from sphear.positive import is_positive, shown
 
 
 @dataclass(frozen=True)
@@ -30,8 +31,8 @@ class Kernel:
     sigma: ClassVar[tuple[float, float, float]]  # makes the integral one in 1, 2 and 3 dimensions
 
     def __post_init__(self) -> None:
-        if not 0 < self.h < float("inf"):
-            raise SphearError(f"the smoothing length h must be positive, not {self.h}")
+        if not is_positive(self.h):
+            raise SphearError(f"the smoothing length h must be positive, not {shown(self.h)}")
 
     def shape(self, q: Scalar, dimension: int) -> Scalar:
         """w(q)."""

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+SHOWN = 80  # letters of a name that cannot be
+
+
 class OutputFolder:
     """A folder in which every file is complete: each is written beside its name and put there in one step.
 
@@ -28,9 +31,19 @@ class OutputFolder:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
         self.files: list[Path] = []
-        existing = next(folder for folder in (self.path, *self.path.absolute().parents) if os.access(folder, os.F_OK))
+        try:
+            self.path = Path(path)
+            with suppress(FileNotFoundError, NotADirectoryError):  # it is made later, or refused below
+                self.path.lstat()
+            folders = (self.path, *self.path.absolute().parents)
+            broken = next((link for link in folders if link.is_symlink() and not link.exists()), None)
+        except (TypeError, ValueError, OSError) as error:  # no text, or a name that no file can have
+            why = getattr(error, "strerror", None) or str(error)
+            raise SphearError(f"{repr(path)[:SHOWN]} cannot be an output folder: {why}") from None
+        if broken is not None:
+            raise SphearError(f"{self.path} cannot be an output folder: {broken} is a link that leads nowhere")
+        existing = next(folder for folder in folders if os.access(folder, os.F_OK))
         if not existing.is_dir():
             raise SphearError(f"{self.path} cannot be an output folder: {existing} is a file")
         if not os.access(existing, os.W_OK | os.X_OK):

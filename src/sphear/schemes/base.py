@@ -16,6 +16,7 @@ from sphear.schemes.settings import FlowSettings
 if TYPE_CHECKING:
     from sphear.kernels import Kernel
     from sphear.schemes.problem import Problem
+    from sphear.viscosity import ViscousTerm
 
 Settings = FlowSettings | IncompressibleSettings
 
@@ -35,6 +36,7 @@ class FlowInTime(Protocol):
     Attributes:
         problem: what is computed.
         kernel: with its smoothing length.
+        term: the viscous one.
         time: reached.
         steps: made.
         time_step: of the steps.
@@ -45,6 +47,7 @@ class FlowInTime(Protocol):
 
     problem: Problem
     kernel: Kernel
+    term: ViscousTerm
     time: float
     steps: int
     time_step: float
@@ -67,6 +70,10 @@ class FlowInTime(Protocol):
     @property
     def pressure(self) -> Array:
         """(N,)."""
+
+    @staticmethod
+    def limits_of(problem: Problem, settings: Any, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
+        """The time steps that each condition allows in another problem with the same particles."""
 
     def advance(self, steps: int) -> None:
         """Make steps."""

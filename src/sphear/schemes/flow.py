@@ -14,6 +14,7 @@ from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.threads import loop_threads, thread_count
 from sphear.equations_of_state import IdealGas
 from sphear.errors import SphearError
+from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
@@ -22,7 +23,7 @@ from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
-from sphear.viscosity import VISCOSITY
+from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
@@ -56,17 +57,12 @@ class Flow:
         self.correction = arguments.read_correction(settings.correction, None)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
         self.count = len(problem.positions)
-        gas = settings.equation_of_state == "ideal_gas"
-        self.sound_speed = (
-            float(IdealGas().sound_speed(problem.density, self._energy_at_rest()))
-            if gas
-            else settings.sound_speed or morris_sound_speed(problem)
-        )
-        self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed, self.term.radial)
+        self.sound_speed = _sound_speed(problem, settings)
+        self.limits = self.limits_of(problem, settings, self.kernel, self.term)
         self.time_step = chosen_time_step(self.limits, settings)
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))
-        at_start = arrays(settings, problem, chosen, self.kernel, self._energy_at_rest())
+        at_start = arrays(settings, problem, chosen, self.kernel, _energy_at_rest(problem, settings))
         self._x, self._v, self._fields, self._change, self._space, self._numbers, self._constants = at_start
         self._fresh = False  # whether the rates are those of the state
         self.threads = min(thread_count(settings.threads, self.count), loop_threads())
@@ -84,8 +80,10 @@ class Flow:
         nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
         self.problem = replace(problem, positions=nothing, velocities=nothing)
 
-    def _energy_at_rest(self) -> float:
-        return float(IdealGas().energy(self.problem.density, self.settings.initial_pressure))
+    @staticmethod
+    def limits_of(problem: Problem, settings: FlowSettings, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
+        """The time steps that the CFL, viscous and body-force conditions allow; a flow itself is not needed."""
+        return problem.time_step_limits(kernel.h, _sound_speed(problem, settings), term.radial)
 
     @property
     def positions(self) -> Array:
@@ -217,3 +215,13 @@ class Flow:
             if name not in ("clock", "fresh"):
                 values[...] = state[name]
         self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
+
+
+def _sound_speed(problem: Problem, settings: FlowSettings) -> float:
+    if settings.equation_of_state == "ideal_gas":
+        return float(IdealGas().sound_speed(problem.density, _energy_at_rest(problem, settings)))
+    return settings.sound_speed or morris_sound_speed(problem)
+
+
+def _energy_at_rest(problem: Problem, settings: FlowSettings) -> float:
+    return float(IdealGas().energy(problem.density, settings.initial_pressure))

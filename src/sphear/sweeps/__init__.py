@@ -7,6 +7,6 @@ from sphear.sweeps.plan import Run, plan
 from sphear.sweeps.progress import Progress, SweepProgress
 from sphear.sweeps.result import SweepResult
 from sphear.sweeps.store import Store
-from sphear.sweeps.sweep import run_sweep
+from sphear.sweeps.sweep import SweepWarning, run_sweep
 
-__all__ = ["Progress", "Run", "Store", "SweepProgress", "SweepResult", "plan", "run_sweep"]
+__all__ = ["Progress", "Run", "Store", "SweepProgress", "SweepResult", "SweepWarning", "plan", "run_sweep"]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import re
-from collections.abc import Generator, Sequence
+import time
+from collections.abc import Callable, Generator, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import Any
@@ -15,11 +17,14 @@ from sphear.sweeps.plan import Run
 from sphear.sweeps.worker import call
 
 CONNECT = 10.0  # seconds to find the scheduler
+PATIENCE = 600.0  # seconds without any worker after which a sweep ends
 ADDRESS = re.compile(r"inproc://\S+|([a-z]+://)?(\[[0-9a-fA-F:]+\]|[^\s:/\[\]]+):\d+")
 LOOK = 2.0  # seconds after which workers that have come are noticed
 
 
-def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Event, None, None]:
+def on_cluster(
+    runs: Sequence[Run], address: str, compute: str, say: Callable[[str], None]
+) -> Generator[Event, None, None]:
     """Compute runs, the first ones first, and tell what happens to each.
 
     No more runs are handed out than the workers have threads: one that is killed has no others waiting, which Dask
@@ -29,9 +34,10 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
         runs: what to compute.
         address: of the scheduler, such as tcp://host:8786.
         compute: import path of the function that computes a run.
+        say: is told in a sentence that there are no workers and how long they are waited for.
 
     Raises:
-        SphearError: Dask is not installed, or the scheduler does not answer.
+        SphearError: Dask is not installed, or the scheduler does not answer or has no workers for too long.
     """
     distributed = _distributed()
     address = address.strip()
@@ -41,18 +47,25 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
     level = log.level
     log.setLevel(logging.CRITICAL)  # it would show tracebacks of what is said in a sentence below
     try:
+        _ask(address)
         client = distributed.Client(address, timeout=CONNECT, set_as_default=False)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, TypeError) as error:  # the last where TLS lacks its files
         log.setLevel(level)
-        raise SphearError(f"the scheduler {address} does not answer: {error}") from error
+        why = " ".join(str(error).split()) or f"nothing came within {CONNECT:g} s"
+        raise SphearError(f"the scheduler {address} does not answer: {why}") from error
     waiting, running = list(reversed(runs)), dict[Any, Run]()
+    alone = _Alone(address, say)
     try:
         while waiting or running:
-            free = max(1, sum(client.nthreads().values())) - len(running)
-            for _ in range(min(free, len(waiting))):
+            threads = sum(client.nthreads().values())
+            alone.look(threads)
+            for _ in range(min(threads - len(running), len(waiting))):
                 run = waiting.pop()
                 running[client.submit(call, compute, run.case, run.given, pure=False, retries=0)] = run
                 yield Started(run)
+            if not running:
+                time.sleep(LOOK if not threads else 0)
+                continue
             with suppress(distributed.TimeoutError, distributed.CancelledError), client.as_current():
                 distributed.wait(list(running), timeout=LOOK, return_when="FIRST_COMPLETED")
             for future in [future for future in running if future.done()]:
@@ -64,6 +77,49 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
             client.cancel(list(running))
         client.close()
         log.setLevel(level)
+
+
+class _Alone:
+    """Waits for workers where a scheduler has none: says so once, and not for ever."""
+
+    def __init__(self, address: str, say: Callable[[str], None]) -> None:
+        self.address, self.say = address, say
+        self.since: float | None = None
+
+    def look(self, threads: int) -> None:
+        """Take note of how many threads the workers have.
+
+        Raises:
+            SphearError: there have been none for too long.
+        """
+        if threads:
+            self.since = None
+        elif self.since is None:
+            self.since = time.monotonic()
+            self.say(f"the scheduler {self.address} has no workers: they are waited for, {PATIENCE:g} s at most")
+        elif time.monotonic() - self.since > PATIENCE:
+            raise SphearError(
+                f"the scheduler {self.address} has had no workers for {PATIENCE:g} s: start some with dask worker"
+                f" {self.address}; what was computed is stored"
+            )
+
+
+def _ask(address: str) -> None:
+    """Exchange greetings with a scheduler: its client would wait for ever for those of one that says nothing.
+
+    Raises:
+        OSError, ValueError, TypeError: it cannot be reached, says nothing in time, or is of no known kind.
+    """
+    if address.startswith("inproc://"):
+        return
+    comm = import_module("distributed.comm")
+    security = _distributed().Security().get_connection_args("client")
+
+    async def greeted() -> None:
+        connection = await asyncio.wait_for(comm.connect(address, timeout=CONNECT, **security), CONNECT)
+        connection.abort()
+
+    asyncio.run(greeted())
 
 
 def _distributed() -> Any:

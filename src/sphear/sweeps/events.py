@@ -9,6 +9,9 @@ if TYPE_CHECKING:
     from sphear.sweeps.plan import Run
 
 
+LONGEST = 300  # letters of a reason
+
+
 @dataclass(frozen=True)
 class Started:
     """A run is with a worker."""
@@ -30,11 +33,13 @@ class Lost:
 
     run: Run
     reason: str
+    of_itself: bool = False  # by an exception, which will come again, and not because its worker was killed
 
 
 Event = Started | Finished | Lost
 
 
 def unexpected(run: Run, error: BaseException) -> Lost:
-    """A run that ended with an exception."""
-    return Lost(run, f"{type(error).__name__}: {' '.join(str(error).split())}".removesuffix(": "))
+    """A run that ended with an exception; one of memory or files may be the machine's and no fault of the run."""
+    reason = f"{type(error).__name__}: {' '.join(str(error).split())}".removesuffix(": ")
+    return Lost(run, reason[:LONGEST], of_itself=not isinstance(error, MemoryError | OSError))

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Sized
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError
+from sphear.positive import shown
+from sphear.sweeps.cost import Costs
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
     from sphear.schemes.base import Settings
 
-UNTIL_STEADY = 20.0  # time units, the guess where the case says when a run is over
+MOST = 100_000  # runs
+TOLD_EVERY = 20  # runs
 IMMATERIAL = ("force", "threads")  # settings that do not change what a run finds
 
 
@@ -50,8 +54,10 @@ class Run:
 
         Settings at their general default are left out of it, so that a new setting leaves old results valid.
         """
-        usual = type(self.settings)().model_dump(mode="json")
-        matter = {name: value for name, value in self.given.items() if name not in IMMATERIAL and value != usual[name]}
+        general = usual(type(self.settings))
+        matter = {
+            name: value for name, value in self.given.items() if name not in IMMATERIAL and value != general[name]
+        }
         digest = hashlib.sha256(json.dumps([self.case, matter], sort_keys=True).encode()).hexdigest()[:16]
         chosen = self.settings
         scheme = "" if chosen.scheme == "explicit" else f"{chosen.scheme}-"
@@ -67,41 +73,68 @@ class Run:
         Raises:
             SphearError: the settings do not go together.
         """
-        from sphear.cases.flow import FLOWS, FlowRun
-
-        # relaxed particles take long to make, and are as many as those of a lattice
-        quick = {"initial": "lattice"} if self.given.get("initial") == "relaxed" else {}
-        run = FlowRun(FLOWS[self.case], self.settings.model_copy(update=quick))
-        until = self.settings.until or UNTIL_STEADY
-        return len(run.flow.positions) * min(until * run.unit / run.flow.time_step, self.settings.max_steps)
+        return Costs().of(self.case, self.settings)
 
 
-def plan(case: str, over: Mapping[str, Sequence[Any]], fixed: Mapping[str, Any] | None = None) -> list[Run]:
+@cache
+def usual(kind: type[Settings]) -> dict[str, Any]:
+    """The general defaults of settings, as JSON has them."""
+    return kind().model_dump(mode="json")
+
+
+def no_progress(planned: int, of: int) -> None:
+    """Tells nobody."""
+
+
+def plan(
+    case: str,
+    over: Mapping[str, Sequence[Any]],
+    fixed: Mapping[str, Any] | None = None,
+    progress: Callable[[int, int], None] = no_progress,
+) -> list[Run]:
     """All combinations of values for some settings, on top of fixed ones; a run that comes up again is left out.
 
     Args:
         case: name of a flow.
         over: values by setting; the last setting changes fastest.
         fixed: settings that differ from the defaults of the case.
+        progress: is told how many runs of how many are planned, now and then.
 
     Raises:
         SphearError: a setting is unknown, wrong, without values, both fixed and gone through, or does not go with
-            the others.
+            the others; or there are more than `MOST` combinations.
     """
     from sphear.cases.flow import FLOWS
     from sphear.cases.flow.chosen import flow_settings
 
-    fixed = fixed or {}
-    for key, values in over.items():
-        if key in fixed:
-            raise SphearError(f"the setting {key} is both fixed and swept over: choose one")
-        if isinstance(values, str) or not len(values):
-            raise SphearError(f"the setting {key} needs a list of at least one value to sweep over")
+    fixed = {} if fixed is None else fixed
+    _check(over, fixed)
     chosen = FLOWS[case]
+    combinations = math.prod(len(values) for values in over.values())
+    if combinations > MOST:
+        raise SphearError(
+            f"a sweep has at most {MOST} runs, and {' x '.join(str(len(values)) for values in over.values())} values"
+            f" are {combinations}: compute it in parts, which may share a folder"
+        )
     runs: dict[str, Run] = {}
-    for values in product(*over.values()):
+    costs = Costs()
+    for number, values in enumerate(product(*over.values())):
         run = Run(chosen.name, flow_settings(chosen, {**fixed, **dict(zip(over, values, strict=True))}))
         if run.key not in runs:
             runs[run.key] = run
-            _ = run.cost  # refuses settings that do not go together
+            run.__dict__["cost"] = costs.of(run.case, run.settings)  # refuses settings that do not go together
+        if number % TOLD_EVERY == 0:
+            progress(number, combinations)
     return list(runs.values())
+
+
+def _check(over: Any, fixed: Any) -> None:
+    """Refuse values that are not by setting, or no lists, and settings that are both fixed and gone through."""
+    for what, settings in (("values to sweep over", over), ("fixed settings", fixed)):
+        if not isinstance(settings, Mapping) or not all(isinstance(key, str) for key in settings):
+            raise SphearError(f"the {what} are a mapping with names of settings, not {shown(settings)}")
+    for key, values in over.items():
+        if key in fixed:
+            raise SphearError(f"the setting {key} is both fixed and swept over: choose one")
+        if isinstance(values, str | Mapping) or not isinstance(values, Sized) or not len(values):
+            raise SphearError(f"the setting {key} needs a list of at least one value to sweep over")

@@ -9,6 +9,7 @@ from sphear.algebra import Scalar, Vector, dot, scale, subtract
 from sphear.corrections import Correction
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
+from sphear.positive import is_positive, shown
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
@@ -41,8 +42,8 @@ class Cleary(ViscousTerm):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.xi is not None and not self.xi > 0:
-            raise SphearError(f"the factor xi of viscosity 'cleary' must be positive, not {self.xi}")
+        if self.xi is not None and not is_positive(self.xi):
+            raise SphearError(f"the factor xi of viscosity 'cleary' must be positive, not {shown(self.xi)}")
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar

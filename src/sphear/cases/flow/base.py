@@ -57,6 +57,7 @@ class FlowCase:
         time_name: how that time is called.
         metrics: errors and the like at one moment, by name.
         ended: why a run is over at one moment, from its metrics: "steady", "failed: ...", what else ends it, or None.
+        ends: what `ended` may say beside "steady" and "failed: ...".
         summary: what is found at the end, beside the metrics; `reference_missing` is a sentence on what could not be
             compared.
         profiles: numbers along lines, at the end, that are kept with the results of a sweep.
@@ -74,6 +75,7 @@ class FlowCase:
     time_name: str
     metrics: Callable[[Settings, FlowInTime], dict[str, float]]
     ended: Callable[[Settings, FlowInTime, dict[str, float]], str | None]
+    ends: tuple[str, ...] = ()
     summary: Callable[[Settings, FlowInTime], dict[str, Any]] = lambda settings, flow: {}
     profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
     headline: str = "rms_error"

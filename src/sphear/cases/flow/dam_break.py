@@ -21,6 +21,7 @@ Array = np.ndarray[Any, Any]
 
 WIDTH, GRAVITY, DENSITY = 1.0, 1.0, 1.0  # of the column
 FEWEST = 4  # particles
+AT_WALL = "the front is at the wall"
 GAP = 2.0  # spacings, from which on particles are spray
 
 
@@ -106,7 +107,7 @@ def standing(heights: Array, dx: float) -> float:
 def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
     """Where the front meets the opposite wall."""
     assert isinstance(settings, DamBreakSettings)
-    return "the front is at the wall" if found["front"] > settings.tank - 2 * flow.problem.spacing else None
+    return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
 
 
 def summary(settings: Settings, flow: FlowInTime) -> dict[str, Any]:
@@ -137,6 +138,7 @@ DAM_BREAK = FlowCase(
     time_name="t sqrt(n^2 g / a)",
     metrics=metrics,
     ended=ended,
+    ends=(AT_WALL,),
     summary=summary,
     headline="front",
     known=known,

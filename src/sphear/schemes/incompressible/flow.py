@@ -12,6 +12,7 @@ from sphear.corrections import CORRECTIONS
 from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
+from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
 from sphear.schemes.energy import EnergyBudget
@@ -24,7 +25,7 @@ from sphear.schemes.incompressible.shifting import LEAST_STRETCHING, drift, stre
 from sphear.schemes.incompressible.sums import Discretisation, Sums
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
 from sphear.schemes.problem import Problem
-from sphear.viscosity import VISCOSITY
+from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
@@ -74,7 +75,7 @@ class IncompressibleFlow:
         viscous = Viscous(self.term, correction, self.kernel, problem.kinematic_viscosity)
         self.discretisation = Discretisation(problem, settings, self.kernel, viscous, self.threads)
         self.guard = Guard(problem, self.discretisation.region)
-        self.limits = self._limits()
+        self.limits = self.limits_of(problem, settings, self.kernel, self.term)
         self.time_step = chosen_time_step(self.limits, settings)
         usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
@@ -112,13 +113,17 @@ class IncompressibleFlow:
         """(N,)."""
         return np.full(self.count, self.problem.density)
 
-    def _limits(self) -> dict[str, float]:
-        problem, h = self.problem, self.kernel.h
-        limits = problem.time_step_limits(h, 0.0, self.term.radial)
+    @staticmethod
+    def limits_of(
+        problem: Problem, settings: IncompressibleSettings, kernel: Kernel, term: ViscousTerm
+    ) -> dict[str, float]:
+        """The time steps that each condition allows; a flow itself is not needed."""
+        h = kernel.h
+        limits = problem.time_step_limits(h, 0.0, term.radial)
         limits["cfl"] = COURANT * h / problem.speed
-        if self.settings.shifting == "lind":  # the concentration spreads explicitly
-            limits["shifting"] = STABLE_SHIFTING * h / (self.settings.shifting_strength * problem.speed)
-        if IMPLICIT_SHARE[self.settings.viscous_step]:
+        if settings.shifting == "lind":  # the concentration spreads explicitly
+            limits["shifting"] = STABLE_SHIFTING * h / (settings.shifting_strength * problem.speed)
+        if IMPLICIT_SHARE[settings.viscous_step]:
             limits["viscous"] = math.inf
         return limits
 

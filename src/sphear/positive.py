@@ -1,0 +1,22 @@
+"""Positive numbers, of whatever type Python and NumPy have for them."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Any
+
+
+def is_positive(value: Any) -> bool:
+    """Whether a value is a positive finite number; text, truth values and numbers beyond floats are none."""
+    if isinstance(value, str | bytes | bool):
+        return False
+    try:
+        return 0.0 < float(value) < inf
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
+def shown(value: Any) -> str:
+    """A value in at most 60 letters."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
