@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ from sphear.schemes.problem import Problem
 from sphear.viscosity.base import LaplacianTerm
 
 Array = np.ndarray[Any, Any]
+
+ROUNDED = 1e-13  # of the terms that a source is summed from, what rounding leaves where they cancel
 
 
 def pressure_laplacian(problem: Problem, settings: IncompressibleSettings, kernel: Kernel) -> LaplacianTerm:
@@ -98,7 +101,8 @@ class Pressures:
         equation = self.rows.equation(sums.places, sums.rows, jump, found)
         right = np.concatenate((source[equation.order], self._wall_source(accelerations))) - equation.known
         guess = np.concatenate((self.fluid[equation.order], self.on_walls))
-        solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance)
+        floor = self._rounding(sums, velocities, accelerations, time_step) * math.sqrt(len(right))
+        solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance, floor=floor)
         self.iterations, self.residual = solution.iterations, solution.residual
         count = len(self.fluid)
         self.fluid = np.empty(count)
@@ -114,8 +118,22 @@ class Pressures:
             if sums.surface is not None:  # a neighbourhood that ends at the surface is not thin
                 near = sums.surface.near
                 crowding[near] = np.maximum(crowding[near], 0.0)
+            if self.rows.on_wall:  # whose rows have no density: what is even cannot be relieved, so it drives nothing
+                crowding -= crowding.mean()
             source -= self.alpha * self.density * crowding / step / step
         return source
+
+    def _rounding(self, sums: Sums, velocities: Array, accelerations: Array, step: float) -> float:
+        """The size of a source that is nothing but rounding of its terms, on a particle.
+
+        Where a flow is at rest, uniform or parallel these cancel, and what is left is judged by their own sizes: places
+        over the smoothing length, which the density knows, and velocities over it, those that walls balance included.
+        """
+        h = sums.how.kernel.h
+        speed = np.abs(velocities).max(initial=0.0) + step * np.abs(accelerations).max(initial=0.0)
+        place = 1.0 + np.abs(sums.places.positions).max(initial=0.0) / h
+        rate = speed / h + self.alpha * place / step
+        return float(ROUNDED * self.density * rate / step)
 
     def _wall_source(self, accelerations: Array) -> Array:
         """(S,), n . grad p = rho n . a over the spacing, at particles on walls that have a pressure of their own."""
