@@ -14,6 +14,7 @@ from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
@@ -78,6 +79,7 @@ class IncompressibleFlow:
         usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
+        self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.term.radial)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
         self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
@@ -144,17 +146,35 @@ class IncompressibleFlow:
             self._step()
         self.restore(state)
 
-    def _predicted(self, sums: Sums, u: Array, time: float) -> Array:
-        """(N, d), the acceleration of velocities u (N, d) by viscosity and forces, over the step."""
+    def _force(self, sums: Sums, time: float) -> Array:
+        """(d,) or (N, d), on a unit of mass."""
         problem = self.problem
         force = np.array(problem.body_force)
         if problem.force is not None:
             force = force + problem.force(sums.places.positions[: self.count], time)
+        return force
+
+    def _predicted(self, sums: Sums, u: Array, time: float) -> Array:
+        """(N, d), the acceleration of velocities u (N, d) by viscosity and forces, over the step."""
+        force = self._force(sums, time)
         share = IMPLICIT_SHARE[self.settings.viscous_step]
         if not share:
             acceleration: Array = sums.viscous(u) + force
             return acceleration
         return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
+
+    def _projected(self, sums: Sums, u: Array, moved: float) -> tuple[Sums, Array, Array]:
+        """Velocities (N, d) after prediction and projection, the pressure (N + W,), and the sums where it acts."""
+        step, x = self.time_step, sums.places.positions[: self.count]
+        acceleration = self._predicted(sums, u, self.time + moved)
+        predicted = u + step * acceleration
+        if self.settings.projection == "intermediate":
+            self.guard.check_speed(self.time, x, predicted)
+            sums = self.discretisation.at(x + step * predicted)
+        even = sums.even(acceleration)
+        before = sums.divergent(u, -moved) + step * even
+        pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
+        return sums, predicted - step / self.problem.density * sums.pressure_gradient(pressures), pressures
 
     def _step(self) -> None:
         step, u = self.time_step, self.u.copy()  # before dry walls velocities change
@@ -165,16 +185,12 @@ class IncompressibleFlow:
             self.guard.check_speed(self.time, self.x, u)
             distance = self.guard.put_back(self.time, x, u)
         sums = self.discretisation.at(x, distance)
-        acceleration = self._predicted(sums, u, self.time + moved)
-        predicted = u + step * acceleration
-        if self.settings.projection == "intermediate":
-            self.guard.check_speed(self.time, x, predicted)
-            sums = self.discretisation.at(x + step * predicted)
+        if self.coupled is not None:
+            force = self._force(sums, self.time + moved)
+            after, pressures = self.coupled.solve(sums, u, force, step, moved, self.steps)
+        else:
+            sums, after, pressures = self._projected(sums, u, moved)
         self.pressure_positions = sums.places.positions[: self.count]
-        even = sums.even(acceleration)
-        before = sums.divergent(u, -moved) + step * even
-        pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
-        after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
         x = x + (0.5 * step - moved) * u + 0.5 * step * after
         if self.drift is not None:
             shift = step * sums.places.sum(self.drift)
