@@ -49,7 +49,7 @@ class Coupled:
     (Chorin 1968), also in a steady flow. Here velocity w and pressure p at the end of a step are those of
 
         w = u + dt (a - grad p / rho),    a = (1 - s) nu lap u + s nu lap w + f
-        div w = alpha (rho_particles - rho) / (rho dt) + tau (lap p - div grad p) / rho
+        div w = alpha / dt (rho_particles - rho) / rho + tau (lap p - div grad p) / rho
 
     at once, with n . grad p = rho n . a at walls. The last term, a difference between two forms of one Laplacian, is
     what a projection leaves, and what keeps pressures of neighbours from falling apart (Rhie & Chow 1983). A projection
@@ -64,16 +64,16 @@ class Coupled:
         pressures: the pressure equation, and where the pressure is kept.
         viscosity: nu.
         limit: the step that the viscous limit allows an explicit step.
-        speed: the largest expected.
-        length: of the flow.
+        turnover: L / U, the time in which the flow passes its length.
+        relief: alpha / dt, the rate at which crowding decays.
         kind: of the viscous step, "crank_nicolson" or "backward_euler".
     """
 
     def __init__(
-        self, pressures: Pressures, viscosity: float, limit: float, speed: float, length: float, kind: str
+        self, pressures: Pressures, viscosity: float, limit: float, turnover: float, relief: float, kind: str
     ) -> None:
         self.pressures, self.viscosity, self.limit = pressures, viscosity, limit
-        self.rate = speed / length
+        self.turnover, self.relief = turnover, relief
         self.share = viscous.IMPLICIT_SHARE[kind]
 
     def solve(
@@ -96,7 +96,7 @@ class Coupled:
             half = Step(velocities, force, 0.5 * time_step, 1.0, moved)
             middle = Coupling(self, sums, half).solve()[0]
             return Coupling(self, sums, half._replace(velocities=middle)).solve()
-        share = min(self.share + DAMPING * self.rate * time_step, 1.0)
+        share = min(self.share + DAMPING * time_step / self.turnover, 1.0)
         return Coupling(self, sums, Step(velocities, force, time_step, share, moved)).solve()
 
 
@@ -112,7 +112,7 @@ class Coupling:
     def __init__(self, how: Coupled, sums: Sums, step: Step) -> None:
         self.how, self.sums, self.step = how, sums, step
         pressures, self.h = how.pressures, sums.how.kernel.h
-        self.density, self.alpha = pressures.density, pressures.alpha
+        self.density = pressures.density
         self.tau = min(step.length, how.limit)
         self.kept = self.tau / step.length
         self.unit = self.density * self.h / self.tau  # of pressures
@@ -127,11 +127,11 @@ class Coupling:
         self.before = (1.0 - step.share) * sums.viscous(u) + step.force
         self.start = sums.divergent(u, -step.moved)
         self.still = sums.divergent(np.zeros_like(u))
-        self.source = pressures.crowding(sums) * self.alpha / step.length
+        self.source = how.relief * pressures.crowding(sums)
         if step.moved:
             d = u.shape[1]
             slopes = sums.slopes(self.start).reshape(-1, d, d)
-            self.source = self.source + (1.0 - self.alpha) * step.moved * np.einsum("nab,nba->n", slopes, slopes)
+            self.source = self.source + step.moved * np.einsum("nab,nba->n", slopes, slopes)
 
     def solve(self) -> tuple[Array, Array]:
         """Velocities (N, d) and pressures (N + W,); the pressure is kept.
@@ -202,7 +202,7 @@ class Coupling:
         field = self.tau * even + kept * self.start
         if kept < 1.0:
             field = field + (1.0 - kept) * sums.divergent(w, step.moved)
-        divergence = (1.0 - self.alpha) * sums.divergence(field) - self.source
+        divergence = sums.divergence(field) - self.source
         laplacian: Array = self.equation.system.matrix @ p
         if len(jump):
             laplacian[:count] += self.coupling @ jump
@@ -253,7 +253,7 @@ class Coupling:
         off = z[size:] / self.h
         if self.kept < 1.0:
             moved = self.sums.divergence(self.sums.divergent(w) - self.still)
-            off[: shape[0]] -= (1.0 - self.alpha) * (1.0 - self.kept) * moved[order]
+            off[: shape[0]] -= (1.0 - self.kept) * moved[order]
         if self.equation.system.singular:
             off -= off.mean()
         viscous_part = self.step.share * self.how.viscosity * (1.0 - self.kept) * off
@@ -263,7 +263,12 @@ class Coupling:
 
 
 def coupled(
-    problem: Problem, settings: IncompressibleSettings, pressures: Pressures, h: float, radial: bool
+    problem: Problem,
+    settings: IncompressibleSettings,
+    pressures: Pressures,
+    h: float,
+    time_step: float,
+    radial: bool,
 ) -> Coupled | None:
     """The solver of implicit steps; None of explicit ones, and where a free surface cuts pressures off.
 
@@ -272,11 +277,11 @@ def coupled(
         settings: how.
         pressures: the pressure equation.
         h: the smoothing length.
+        time_step: dt.
         radial: whether the viscous term acts along the line of centres.
     """
     if settings.viscous_step == "explicit" or problem.free_surface:
         return None
     limit = problem.time_step_limits(h, 0.0, radial)["viscous"]
-    return Coupled(
-        pressures, problem.kinematic_viscosity, limit, problem.speed, problem.length, settings.viscous_step
-    )
+    turnover, relief = problem.length / problem.speed, pressures.alpha / time_step
+    return Coupled(pressures, problem.kinematic_viscosity, limit, turnover, relief, settings.viscous_step)

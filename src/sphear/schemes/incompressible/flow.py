@@ -79,7 +79,7 @@ class IncompressibleFlow:
         usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
-        self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.term.radial)
+        self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.time_step, self.term.radial)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
         self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
