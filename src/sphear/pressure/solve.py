@@ -51,6 +51,7 @@ def solve(
     preconditioner: str | Preconditioner = "grid",
     tolerance: float = 1e-6,
     most: int = 500,
+    floor: float = 0.0,
 ) -> Solution:
     """The p of A p = b, or where that is singular the p of mean zero and the lambda of A p + lambda 1 = b.
 
@@ -71,6 +72,8 @@ def solve(
         preconditioner: a name of `PRECONDITIONERS`, or one with settings of its own.
         tolerance: ||b - A p|| / ||b|| to be reached, without b's imbalance.
         most: iterations of the first attempt.
+        floor: a length ||b|| below which b, without its imbalance, is the rounding of what it was made from: it is
+            taken for nothing, and no residual below it is asked for.
 
     Raises:
         SphearError: the right-hand side or the guess is not (n,) finite numbers.
@@ -85,12 +88,15 @@ def solve(
     whole = norm(right)
     balanced = right - right.mean() if system.singular else right
     length = norm(balanced)
-    if length <= NOTHING * whole:
+    if length <= max(NOTHING * whole, floor):
         nothing = np.zeros(system.unknowns)
         return Solution(nothing, 0, 0.0, 1.0 if whole else 0.0, "direct", first.name)
 
     # of length one, so that what is small does not depend on units
     balanced, guess = balanced / length, None if guess is None else guess / length
+    if system.singular:  # where little is left of a large constant, so is rounding of it: no product has that
+        balanced -= balanced.mean()
+    tolerance = max(tolerance, floor / length)
     attempt = _attempt(system, balanced, guess, first, tolerance, most, robust=False)
     (residual, mean), retried = _residual(system, balanced, attempt.values), False
     iterations, used = attempt.iterations, first

@@ -16,6 +16,7 @@ from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
 from sphear.schemes.energy import EnergyBudget
+from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
@@ -80,6 +81,7 @@ class IncompressibleFlow:
         usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
+        self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.time_step, self.term.radial)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
         self.uneven = unevenness(self.count, problem.positions.shape[1], problem.spacing, settings.seed)
         self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
@@ -166,6 +168,20 @@ class IncompressibleFlow:
             return acceleration
         return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
 
+    def _projected(self, sums: Sums, u: Array, force: Array, moved: float) -> tuple[Sums, Array, Array, Array]:
+        """The sums where the pressure acts, velocities (N, d) after it, it (N + W,), and the viscous acceleration."""
+        step, x = self.time_step, sums.places.positions[: self.count]
+        acceleration = self._predicted(sums, u, force)
+        predicted = u + step * acceleration
+        if self.settings.projection == "intermediate":
+            self.guard.check_speed(self.time, x, predicted)
+            sums = self.discretisation.at(x + step * predicted)
+        even = sums.even(acceleration)
+        before = sums.divergent(u, -moved) + step * even
+        pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
+        after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
+        return sums, after, pressures, acceleration - force
+
     def _step(self) -> None:
         step, u = self.time_step, self.u.copy()  # before dry walls velocities change
         moved = MOVED_BEFORE[self.settings.projection] * step
@@ -176,16 +192,12 @@ class IncompressibleFlow:
             distance = self.guard.put_back(self.time, x, u)
         sums = self.discretisation.at(x, distance)
         force = self._force(sums, self.time + moved)
-        acceleration = self._predicted(sums, u, force)
-        predicted = u + step * acceleration
-        if self.settings.projection == "intermediate":
-            self.guard.check_speed(self.time, x, predicted)
-            sums = self.discretisation.at(x + step * predicted)
+        if self.coupled is not None:
+            after, pressures = self.coupled.solve(sums, u, force, step, moved, self.steps)
+            viscous = (after - u) / step - force + sums.pressure_gradient(pressures) / self.problem.density
+        else:
+            sums, after, pressures, viscous = self._projected(sums, u, force, moved)
         self.pressure_positions = sums.places.positions[: self.count]
-        even = sums.even(acceleration)
-        before = sums.divergent(u, -moved) + step * even
-        pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
-        after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
         x = x + (0.5 * step - moved) * u + 0.5 * step * after
         if self.drift is not None:
             # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
@@ -198,7 +210,7 @@ class IncompressibleFlow:
         if not np.isfinite(after + x).all():
             self.guard.check_speed(self.time, self.x, after)  # before the state is no number
         self.x, self.u = x, after
-        self.energy_budget.add(step, u, after, acceleration - force, force)
+        self.energy_budget.add(step, u, after, viscous, force)
         self.time += step
         self.steps += 1
         self.guard.check_speed(self.time, self.x, self.u)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.pressure import PRECONDITIONERS, solve
 from sphear.schemes.incompressible.free_surface import check_surface_settings
-from sphear.schemes.incompressible.projection import PressureRows
+from sphear.schemes.incompressible.projection import Equation, PressureRows
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.sums import Sums
 from sphear.schemes.incompressible.walls import Walls
@@ -20,6 +21,8 @@ from sphear.schemes.problem import Problem
 from sphear.viscosity.base import LaplacianTerm
 
 Array = np.ndarray[Any, Any]
+
+ROUNDED = 1e-13  # of the terms that a source is summed from, what rounding leaves where they cancel
 
 
 def pressure_laplacian(problem: Problem, settings: IncompressibleSettings, kernel: Kernel) -> LaplacianTerm:
@@ -96,28 +99,51 @@ class Pressures:
             source[found.alone] = 0.0
         jump = self.rows.jump(accelerations, self.density, sums.ways())
         equation = self.rows.equation(sums.places, sums.rows, jump, found)
-        right = np.concatenate((source[equation.order], self._wall_source(accelerations))) - equation.known
+        right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.known
         guess = np.concatenate((self.fluid[equation.order], self.on_walls))
-        solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance)
+        floor = self._rounding(sums, velocities, accelerations, time_step) * math.sqrt(len(right))
+        solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance, floor=floor)
         self.iterations, self.residual = solution.iterations, solution.residual
+        self.keep(equation, solution.values)
+        return self.with_walls(sums, self.fluid, self.on_walls, jump)
+
+    def keep(self, equation: Equation, values: Array) -> None:
+        """Keep the solution of an equation, in its order."""
         count = len(self.fluid)
         self.fluid = np.empty(count)
-        self.fluid[equation.order] = solution.values[:count]
-        self.on_walls = solution.values[count:]
-        return self._with_walls(sums, jump)
+        self.fluid[equation.order] = values[:count]
+        self.on_walls = values[count:]
 
     def _source(self, sums: Sums, velocities: Array, step: float, later: float) -> Array:
         """(N,), (1 - alpha) rho div u / dt - alpha (rho_particles - rho) / dt^2."""
         source = (1.0 - self.alpha) * self.density * sums.divergence(velocities, later) / step
         if self.alpha:
-            crowding = sums.concentration() - 1.0
-            if sums.surface is not None:  # a neighbourhood that ends at the surface is not thin
-                near = sums.surface.near
-                crowding[near] = np.maximum(crowding[near], 0.0)
-            source -= self.alpha * self.density * crowding / step / step
+            source -= self.alpha * self.density * self.crowding(sums) / step / step
         return source
 
-    def _wall_source(self, accelerations: Array) -> Array:
+    def crowding(self, sums: Sums) -> Array:
+        """(N,), (rho_particles - rho) / rho that the pressure relieves."""
+        crowding = sums.concentration() - 1.0
+        if sums.surface is not None:  # a neighbourhood that ends at the surface is not thin
+            near = sums.surface.near
+            crowding[near] = np.maximum(crowding[near], 0.0)
+        if self.rows.on_wall:  # whose rows have no density: what is even cannot be relieved, so it drives nothing
+            crowding -= crowding.mean()
+        return crowding
+
+    def _rounding(self, sums: Sums, velocities: Array, accelerations: Array, step: float) -> float:
+        """The size of a source that is nothing but rounding of its terms, on a particle.
+
+        Where a flow is at rest, uniform or parallel these cancel, and what is left is judged by their own sizes: places
+        over the smoothing length, which the density knows, and velocities over it, those that walls balance included.
+        """
+        h = sums.how.kernel.h
+        speed = np.abs(velocities).max(initial=0.0) + step * np.abs(accelerations).max(initial=0.0)
+        place = 1.0 + np.abs(sums.places.positions).max(initial=0.0) / h
+        rate = speed / h + self.alpha * place / step
+        return float(ROUNDED * self.density * rate / step)
+
+    def wall_source(self, accelerations: Array) -> Array:
         """(S,), n . grad p = rho n . a over the spacing, at particles on walls that have a pressure of their own."""
         on, walls = self.rows.on_wall, self.walls
         if not on or walls is None:
@@ -126,13 +152,13 @@ class Pressures:
         result: Array = self.density * slope / self.spacing
         return result
 
-    def _with_walls(self, sums: Sums, jump: Array) -> Array:
-        """(N + W,), the pressure of the fluid and of wall particles."""
+    def with_walls(self, sums: Sums, fluid: Array, on_walls: Array, jump: Array) -> Array:
+        """(N + W,), the pressure of the fluid (N,) and of wall particles, those on walls having their own (S,)."""
         if sums.rows is None:
-            return self.fluid
+            return fluid
         if self.rows.nearest is not None:
-            behind = self.rows.nearest @ self.on_walls
+            behind = self.rows.nearest @ on_walls
             behind[self.rows.on_wall :] += jump
-            return np.concatenate((self.fluid, behind))
-        mirrored = sums.rows.mirrored @ self.fluid
-        return np.concatenate((self.fluid, mirrored + jump if len(jump) else mirrored))
+            return np.concatenate((fluid, behind))
+        mirrored = sums.rows.mirrored @ fluid
+        return np.concatenate((fluid, mirrored + jump if len(jump) else mirrored))

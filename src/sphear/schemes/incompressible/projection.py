@@ -29,11 +29,15 @@ class Equation(NamedTuple):
     system: the matrix.
     known: what the walls' normal gradients add to the matrix's side.
     order: (N,), the particle of each row; particles on walls follow.
+    weights: (N, unknowns + W), of pairs, walls not yet eliminated.
+    mirrored: (W, unknowns), the pressures behind walls; None where they are left out.
     """
 
     system: PressureSystem
     known: Array
     order: Array
+    weights: csr_array
+    mirrored: csr_array | None
 
 
 class PressureRows:
@@ -119,7 +123,42 @@ class PressureRows:
             self.symmetric,
             not (fixed.any() or outside.any()),
         )
-        return Equation(system, known, order)
+        return Equation(system, known, order, weights, mirrored)
+
+    def wall_coupling(self, equation: Equation) -> csr_array:
+        """(N, W), what the jumps of pressures behind walls add to the matrix's side of an equation."""
+        count, behind = equation.weights.shape[0], equation.mirrored
+        if behind is None:
+            return csr_array((count, 0))
+        coupling = csr_array(equation.weights[:, equation.weights.shape[1] - behind.shape[0] :])
+        seen = np.diff(behind.indptr) > 0
+        # a row whose walls have been left out, as in a narrow corner, knows of no jump
+        fixed, ones = np.zeros(behind.shape[1], np.bool_), np.ones(behind.shape[0])
+        used = eliminated(equation.weights, behind, ones, fixed, behind.shape[1])[1] != 0.0
+        rows = np.repeat(used, np.diff(coupling.indptr))
+        coupling.data = np.where(rows & seen[coupling.indices], coupling.data, 0.0)
+        coupling.eliminate_zeros()
+        return coupling
+
+    def velocity_matrix(self, equation: Equation, rows: WallRows | None) -> csr_array:
+        """(N, N), the same Laplacian of a velocity that walls hold, in the order of the equation."""
+        count = equation.weights.shape[0]
+        column = np.empty(count, np.int32)
+        column[equation.order] = np.arange(count, dtype=np.int32)
+        opposite = None
+        if rows is not None:
+            mirrored = rows.mirrored
+            opposite = csr_array(
+                (-mirrored.data, column[mirrored.indices], mirrored.indptr), shape=(mirrored.shape[0], count)
+            )
+        matrix, _ = eliminated(
+            equation.weights,
+            opposite,
+            np.zeros(0 if opposite is None else opposite.shape[0]),
+            np.zeros(count, np.bool_),
+            count,
+        )
+        return matrix
 
     def _mirrored(self, rows: WallRows | None, column: Array, unknowns: int) -> csr_array | None:
         """The pressures behind walls as sums over the unknowns."""
