@@ -87,10 +87,14 @@ def _registry(kind: str) -> Any:
 
 
 def _first_line(item: Any) -> str:
-    """What the module of a kernel, correction or viscous term says of it."""
-    module = inspect.getmodule(item if inspect.isclass(item) else type(item))
-    text = module.__doc__ if module else None
-    return (text or "").strip().splitlines()[0].rstrip(".")
+    """The first line of what is said of a kernel, correction or viscous term.
+
+    That of its module, where it has one of its own; of the class of a user's, whose module may be a whole program.
+    """
+    kind = item if inspect.isclass(item) else type(item)
+    module = inspect.getmodule(kind) if kind.__module__.startswith("sphear.") else None
+    text = (module.__doc__ if module else kind.__doc__) or item.formula
+    return str(text).strip().partition("\n")[0].rstrip(".")
 
 
 def described(kind: str, name: str) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import numpy as np
 from sphear.boundaries import WALL_VELOCITIES
 from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.threads import thread_count
-from sphear.equations_of_state import IdealGas
+from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
@@ -20,9 +20,10 @@ from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_st
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
+from sphear.schemes.named import named
+from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
-from sphear.viscosity import VISCOSITY
 
 Array = np.ndarray[Any, Any]
 
@@ -56,12 +57,7 @@ class Flow:
         self.correction = arguments.read_correction(settings.correction, None)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
         self.count = len(problem.positions)
-        gas = settings.equation_of_state == "ideal_gas"
-        self.sound_speed = (
-            float(IdealGas().sound_speed(problem.density, self._energy_at_rest()))
-            if gas
-            else settings.sound_speed or morris_sound_speed(problem)
-        )
+        self.sound_speed = self._sound_speed()
         self.limits = problem.time_step_limits(self.kernel.h, self.sound_speed, self.term.radial)
         self.time_step = chosen_time_step(self.limits, settings)
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
@@ -84,7 +80,23 @@ class Flow:
         self.problem = replace(problem, positions=nothing, velocities=nothing)
 
     def _energy_at_rest(self) -> float:
-        return float(IdealGas().energy(self.problem.density, self.settings.initial_pressure))
+        gas = self.settings.equation_of_state
+        gas = gas if isinstance(gas, IdealGas) else IdealGas()
+        return float(gas.energy(self.problem.density, self.settings.initial_pressure))
+
+    def _sound_speed(self) -> float:
+        """That of the fluid at rest."""
+        equation, density = self.settings.equation_of_state, self.problem.density
+        if isinstance(equation, Barotropic) and equation.rho0 != density:
+            raise SphearError(
+                f"the equation of state {equation!r} is of another fluid: rho0 must be the density of the flow,"
+                f" {density:g}"
+            )
+        if self.settings.gas:
+            equation = equation if isinstance(equation, IdealGas) else IdealGas()
+        if isinstance(equation, EquationOfState):
+            return float(equation.sound_speed(density, self._energy_at_rest()))
+        return self.settings.sound_speed or morris_sound_speed(self.problem)
 
     @property
     def positions(self) -> Array:
@@ -146,7 +158,7 @@ class Flow:
             numba.set_num_threads(self.threads)
         if self.count > LARGE:
             keep_freed_memory()
-        fastest = math.inf if self.settings.equation_of_state == "ideal_gas" else self.sound_speed
+        fastest = math.inf if self.settings.gas else self.sound_speed
         made, status, worst = self._loop.advance(
             self._x, self._v, self._fields, self._change, self.time_step, steps, self._fresh, fastest, self.count,
             self.threads, self._space, self._numbers, self._constants,
@@ -164,11 +176,11 @@ class Flow:
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
-        settings = self.settings
+        settings = named(self.settings)
         return {
-            "viscosity": VISCOSITY.name(settings.viscosity),
-            "correction": self.correction.name,
-            "kernel": self.kernel.name,
+            "viscosity": text(settings.viscosity),
+            "correction": text(settings.correction),
+            "kernel": text(settings.kernel),
             "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
             "momentum": settings.form,
             "h_over_dx": self.kernel.h / self.problem.spacing,
@@ -180,7 +192,7 @@ class Flow:
 
     def introduction(self) -> str:
         """The sound speed."""
-        return f"correction {self.settings.correction}, sound speed {self.sound_speed:g}"
+        return f"correction {text(self.settings.correction)}, sound speed {self.sound_speed:g}"
 
     def state(self) -> dict[str, Array]:
         """All that a run needs to go on, by name; copies."""

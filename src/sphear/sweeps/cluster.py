@@ -51,7 +51,7 @@ def on_cluster(runs: Sequence[Run], address: str, compute: str) -> Generator[Eve
             free = max(1, sum(client.nthreads().values())) - len(running)
             for _ in range(min(free, len(waiting))):
                 run = waiting.pop()
-                running[client.submit(call, compute, run.case, run.given, pure=False, retries=0)] = run
+                running[client.submit(call, compute, run.case, run.sent, pure=False, retries=0)] = run
                 yield Started(run)
             with suppress(distributed.TimeoutError, distributed.CancelledError), client.as_current():
                 distributed.wait(list(running), timeout=LOOK, return_when="FIRST_COMPLETED")

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from sphear.corrections import CORRECTIONS
 from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
@@ -22,8 +21,9 @@ from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.shifting import drift
 from sphear.schemes.incompressible.sums import Discretisation, Sums
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
+from sphear.schemes.named import named
+from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
-from sphear.viscosity import VISCOSITY
 
 Array = np.ndarray[Any, Any]
 
@@ -32,6 +32,8 @@ PRESSURE_AT = {"midpoint": 0.5, "start": 0.0, "intermediate": 1.0}  # share of t
 COURANT = 0.4  # of smoothing lengths
 STABLE_SHIFTING = 0.25  # smoothing lengths a step and strength: half as much again makes particles clump
 USUAL_ALPHA = 10.0  # alpha over the time step in L / U: 0.01 at the step of 0.001 of Zheng, Ma & Shao (2018)
+
+CHOSEN = ("viscosity", "correction", "gradient_correction", "kernel", "laplacian")  # by a name or an object
 
 
 class IncompressibleFlow:
@@ -197,13 +199,9 @@ class IncompressibleFlow:
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
-        settings = self.settings
+        settings = named(self.settings)
         return {
-            "viscosity": VISCOSITY.name(settings.viscosity),
-            "correction": CORRECTIONS.name(settings.correction),
-            "gradient_correction": CORRECTIONS.name(settings.gradient_correction),
-            "kernel": self.kernel.name,
-            "laplacian": VISCOSITY.name(settings.laplacian),
+            **{key: text(getattr(settings, key)) for key in CHOSEN},
             "preconditioner": self.pressures.preconditioner,
             "h_over_dx": self.kernel.h / self.problem.spacing,
             "alpha": self.alpha,
