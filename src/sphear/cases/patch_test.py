@@ -38,7 +38,8 @@ class PatchTest(BaseModel):
         kernel, h_over_dx, correction, fallback, precision, threads: as `sphear.laplacian` takes them.
         dimension: 2 or 3.
         jitter: of the positions, in spacings.
-        seed: of the first of `seeds` sets of positions, whose errors are averaged.
+        seed: of the first set of positions.
+        seeds: sets of positions, whose errors are averaged.
         edges: "continued" sets particles beyond the edges too; "truncated" leaves the square alone in space.
         samples: "interior" takes the particles whose support lies inside the square, "all" those of the whole square.
 

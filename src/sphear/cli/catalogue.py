@@ -128,14 +128,25 @@ def _described_case(name: str) -> dict[str, Any]:
     name = name.replace("_", "-")
     if name not in CASES:
         raise unknown("case", name, CASES)
+    from sphear.cli.explained import of_settings
+
     if name != "patch-test":
         from sphear.cases.flow import FLOWS
+        from sphear.schemes.presets import BY_SCHEME
 
         case = FLOWS[name]
         settings = {scheme: case.settings(scheme=scheme).model_dump(mode="json") for scheme in case.defaults}
-        return {"kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings}
+        about = {scheme: of_settings(case.kind(scheme)) for scheme in settings}
+        presets = {scheme: {key: dict(BY_SCHEME[scheme][key]) for key in BY_SCHEME[scheme]} for scheme in settings}
+        return {
+            "kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings,
+            "explained": about, "presets": presets,
+        }  # fmt: skip
     from sphear.cases.fields import FIELDS
     from sphear.cases.patch_test import PatchTest
 
     settings = {key: field.default for key, field in PatchTest.model_fields.items()}
-    return {"kind": "cases", "name": name, "summary": CASES[name], "fields": list(FIELDS), "settings": settings}
+    return {
+        "kind": "cases", "name": name, "summary": CASES[name], "fields": list(FIELDS), "settings": settings,
+        "explained": {"settings": of_settings(PatchTest)},
+    }  # fmt: skip

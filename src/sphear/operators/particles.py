@@ -47,7 +47,7 @@ def too_few_neighbours(
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Particles:
     """Particles whose neighbours are known; made once, operated on many times.
 
@@ -67,6 +67,11 @@ class Particles:
     volumes: Array
     precision: str = "float64"
     each_pair_once: bool = False
+
+    def __repr__(self) -> str:
+        """How many, and their kernel."""
+        count, dimension = self.positions.shape
+        return f"<Particles: {count} in {dimension}-D, {self.kernel!r}, {self.precision}>"
 
     @classmethod
     def read(

@@ -16,7 +16,7 @@ from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
 from sphear.errors import SphearError
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
@@ -169,6 +169,10 @@ class Flow:
         if status:
             place = ", ".join(f"{x:.6g}" for x in self._x[worst])
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
+
+    def __repr__(self) -> str:
+        """How many particles, by which term, and where they stand."""
+        return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:
         """Nothing beside what the case says."""

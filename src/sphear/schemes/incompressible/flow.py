@@ -12,7 +12,7 @@ from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
 from sphear.operators import arguments
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
@@ -192,6 +192,10 @@ class IncompressibleFlow:
         self.steps += 1
         self.guard.check_speed(self.time, self.x, self.u)
         self._distance = self.guard.put_back(self.time, self.x, self.u)
+
+    def __repr__(self) -> str:
+        """How many particles, by which term, and where they stand."""
+        return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:
         """Iterations, residual, divergence, density and distances of particles now."""
