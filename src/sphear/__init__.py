@@ -1,6 +1,6 @@
 """sphear: viscous flow with smoothed particle hydrodynamics.
 
-Every published viscous term, exchangeable. The operators work on NumPy arrays of particles:
+The best-known viscous terms, exchangeable. The operators work on NumPy arrays of particles:
 
     laplacian(positions, values, viscosity="morris")
     viscous_acceleration(positions, velocities, viscosity="violeau", dynamic_viscosity=0.01)
@@ -11,40 +11,105 @@ Flows of the cases run from their start to their end:
 
     flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400).run()
 
-Names are imported when first used, so that importing the package costs nothing.
+Names are imported when first used, so that importing the package costs nothing; type checkers see them all.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING
+
+# isort: off
+if TYPE_CHECKING:
+    from sphear.cases.flow import FlowRun as FlowRun, flow as flow
+    from sphear.cases.patch_test import PatchTest as PatchTest
+    from sphear.corrections import (
+        CORRECTIONS as CORRECTIONS,
+        BonetLok as BonetLok,
+        Correction as Correction,
+        NoCorrection as NoCorrection,
+        Renormalised as Renormalised,
+        Shepard as Shepard,
+    )
+    from sphear.equations_of_state import (
+        EQUATIONS_OF_STATE as EQUATIONS_OF_STATE,
+        Barotropic as Barotropic,
+        BatchelorTait as BatchelorTait,
+        EquationOfState as EquationOfState,
+        IdealGas as IdealGas,
+        Linear as Linear,
+    )
+    from sphear.errors import SphearError as SphearError, TooFewNeighboursError as TooFewNeighboursError
+    from sphear.kernels import (
+        KERNELS as KERNELS,
+        CubicSpline as CubicSpline,
+        Gaussian as Gaussian,
+        Kernel as Kernel,
+        QuarticSpline as QuarticSpline,
+        QuinticSpline as QuinticSpline,
+        WendlandC2 as WendlandC2,
+        WendlandC4 as WendlandC4,
+        WendlandC6 as WendlandC6,
+    )
+    from sphear.neighbours import Domain as Domain, Neighbours as Neighbours
+    from sphear.operators import (
+        Particles as Particles,
+        gradient as gradient,
+        interpolate as interpolate,
+        laplacian as laplacian,
+        viscous_acceleration as viscous_acceleration,
+    )
+    from sphear.viscosity import (
+        VISCOSITY as VISCOSITY,
+        Cleary as Cleary,
+        EspanolRevenga as EspanolRevenga,
+        FatehiManzari as FatehiManzari,
+        Gotoh as Gotoh,
+        LaplacianTerm as LaplacianTerm,
+        LeastSquares as LeastSquares,
+        Monaghan as Monaghan,
+        Morris as Morris,
+        Oger as Oger,
+        Schwaiger as Schwaiger,
+        Takeda as Takeda,
+        TwoPass as TwoPass,
+        Violeau as Violeau,
+        ViscousTerm as ViscousTerm,
+    )
+
+# isort: on
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "sphear.cases.flow": ("flow",),
+    "sphear.cases.flow": ("FlowRun", "flow"),
+    "sphear.cases.patch_test": ("PatchTest",),
+    "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
+    "sphear.equations_of_state": (
+        "EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear",
+    ),
     "sphear.errors": ("SphearError", "TooFewNeighboursError"),
+    "sphear.kernels": (
+        "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2",
+        "WendlandC4", "WendlandC6",
+    ),
     "sphear.neighbours": ("Domain", "Neighbours"),
     "sphear.operators": ("Particles", "gradient", "interpolate", "laplacian", "viscous_acceleration"),
-    "sphear.kernels": (
-        "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2", "WendlandC4",
-        "WendlandC6",
-    ),
-    "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
     "sphear.viscosity": (
-        "VISCOSITY", "Cleary", "EspanolRevenga", "FatehiManzari", "Gotoh", "LeastSquares", "Monaghan", "Morris", "Oger",
-        "Schwaiger", "Takeda", "TwoPass", "ViscousTerm", "Violeau",
+        "VISCOSITY", "Cleary", "EspanolRevenga", "FatehiManzari", "Gotoh", "LaplacianTerm", "LeastSquares",
+        "Monaghan", "Morris", "Oger", "Schwaiger", "Takeda", "TwoPass", "ViscousTerm", "Violeau",
     ),
 }  # fmt: skip
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = ["__version__", *_HOME]
 
+if not TYPE_CHECKING:  # to type checkers it would make anything out of every name
 
-def __getattr__(name: str) -> Any:
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module 'sphear' has no attribute {name!r}")
+    def __getattr__(name: str) -> object:
+        if name in _HOME:
+            return getattr(import_module(_HOME[name]), name)
+        raise AttributeError(f"module 'sphear' has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:

@@ -47,6 +47,10 @@ class Registry(Generic[T]):
         self._aliases: dict[str, str] = {}
         self._given: dict[str, tuple[str, ...]] = {}
 
+    def __repr__(self) -> str:
+        """The kind and the names."""
+        return f"<Registry of {self.kind}: {', '.join(self._items)}>"
+
     def add(self, name: str, item: T, aliases: Iterable[str] = ()) -> None:
         """Register an item; a name or alias taken twice is a programming error."""
         aliases = tuple(aliases)

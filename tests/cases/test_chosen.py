@@ -19,11 +19,11 @@ def test_a_flow_runs_to_its_end_with_the_settings_that_were_given() -> None:
     assert run.flow.velocities.shape == (144, 2)
 
 
+MORE: tuple[dict[str, Any], ...] = ({}, {"preset": "modern"}, {"preset": "modern", "kernel": "cubic"})
+
+
 def test_what_is_given_goes_before_a_preset_and_that_before_the_defaults_of_the_case() -> None:
-    plain, whole, part = (
-        sphear.flow("cavity", resolution=12, **more).settings.model_dump()
-        for more in ({}, {"preset": "modern"}, {"preset": "modern", "kernel": "cubic"})  # type: dict[str, Any]
-    )
+    plain, whole, part = (sphear.flow("cavity", resolution=12, **more).settings.model_dump() for more in MORE)
     assert whole["kernel"] != plain["kernel"]
     assert {name for name in whole if whole[name] != part[name]} == {"kernel"}
     incompressible = sphear.flow("cavity", preset="paper", scheme="incompressible", resolution=12).settings.model_dump()

@@ -11,13 +11,14 @@ from sphear import CORRECTIONS, KERNELS, VISCOSITY, __version__
 from sphear.cases.fields import FIELDS
 from sphear.cases.flow import FLOWS
 from sphear.cases.patch_test import PatchTest
+from sphear.names import Registry
 from sphear.pressure import PRECONDITIONERS
 from sphear.studies import ITEMS, PAPERS
 from sphear.viscosity.card import measured
 
 Run = Callable[..., Any]
 
-REGISTRIES = {"kernels": KERNELS, "viscosity": VISCOSITY, "corrections": CORRECTIONS}
+REGISTRIES: dict[str, Registry[Any]] = {"kernels": KERNELS, "viscosity": VISCOSITY, "corrections": CORRECTIONS}
 STUDIES = [f"{paper} {item}" for paper, items in ITEMS.items() for item in items]
 NAMES = {
     **{kind: list(registry) for kind, registry in REGISTRIES.items()},

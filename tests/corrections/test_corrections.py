@@ -305,7 +305,7 @@ def test_fallbacks_of_a_corrected_gradient(correction: str) -> None:
     expected = gradient(positions[good], f[good], correction=correction, **arguments)
     uncorrected = gradient(positions, f, **arguments)
     for fallback, substitute in (("nan", np.full((7, 2, 2), np.nan)), ("uncorrected", uncorrected[deficient])):
-        found = gradient(positions, f, correction=correction, fallback=fallback, **arguments)
+        found = gradient(positions, f, correction=correction, fallback=fallback, **arguments)  # type: ignore[arg-type]
         np.testing.assert_array_equal(found[deficient], substitute)
         np.testing.assert_allclose(found[good], expected, rtol=1e-12)
 
@@ -319,7 +319,7 @@ def test_fallbacks_of_a_term_with_its_own_correction(viscosity: str) -> None:
     expected = laplacian(positions[good], f[good], viscosity=viscosity, **arguments)
     morris = laplacian(positions, f, viscosity=Morris(), **arguments)
     for fallback, substitute in (("nan", np.full(7, np.nan)), ("uncorrected", morris[deficient])):
-        found = laplacian(positions, f, viscosity=viscosity, fallback=fallback, **arguments)
+        found = laplacian(positions, f, viscosity=viscosity, fallback=fallback, **arguments)  # type: ignore[arg-type]
         np.testing.assert_array_equal(found[deficient], substitute)
         np.testing.assert_allclose(found[good], expected, rtol=1e-9, atol=1e-12)
 

@@ -71,7 +71,8 @@ def gradients(known: dict[str, Any], correction: str) -> tuple[Array, Array, Arr
     """(i, j, grad W~_ij) of all pairs, each particle with itself included."""
     i, j, d = all_pairs(POSITIONS, KERNEL.radius)
     itself = np.arange(COUNT)
-    i, j, d = np.r_[i, itself], np.r_[j, itself], np.r_[d, np.zeros((COUNT, 2))]
+    i, j = np.append(i, itself), np.append(j, itself)
+    d = np.append(d, np.zeros((COUNT, 2)), axis=0)
     r2 = (d**2).sum(axis=1)
     apart = r2 > 0
     w = np.where(apart, KERNEL.value(np.where(apart, r2, 1.0), 2), KERNEL.value_at_zero(2))

@@ -181,7 +181,7 @@ def test_gradient_and_hessian_are_derivatives_in_space(name: str, direction: tup
 
     slopes = along_each_axis(lambda x: value(kernel, np.linalg.norm(x), dimension))
     np.testing.assert_allclose(gradient(d), slopes, rtol=1e-6, atol=1e-8)
-    hessian = np.array(kernel.hessian(tuple(d), float(d @ d)))
+    hessian: np.ndarray = np.array(kernel.hessian(tuple(d), float(d @ d)))  # type: ignore[type-arg]
     np.testing.assert_allclose(hessian, along_each_axis(gradient), rtol=1e-5, atol=1e-7)
     np.testing.assert_allclose(hessian, hessian.T)
 
@@ -199,4 +199,4 @@ def test_kernels_are_values() -> None:
         assert kernel == KERNELS[name](0.5) != KERNELS[name](0.6)
         assert hash(kernel) == hash(KERNELS[name](0.5))
         with pytest.raises(AttributeError):
-            kernel.h = 1.0
+            kernel.h = 1.0  # type: ignore[misc]

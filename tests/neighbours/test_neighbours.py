@@ -197,8 +197,8 @@ def test_a_domain_that_is_none_is_refused(arguments: Any, message: str) -> None:
 
 
 def test_a_domain_takes_any_sequence_and_compares_by_value() -> None:
-    domain = Domain(np.zeros(2), [1, 2], np.array([True, False]))
+    domain = Domain(np.zeros(2), [1, 2], np.array([True, False]))  # type: ignore[arg-type]
     assert domain == Domain((0.0, 0.0), (1.0, 2.0), (True, False))
     assert hash(domain) == hash(Domain((0.0, 0.0), (1.0, 2.0), (True, False)))
-    assert Domain((0.0, 0.0), (1.0, 2.0), np.True_).periodic_axes == (0, 1)
+    assert Domain((0.0, 0.0), (1.0, 2.0), np.True_).periodic_axes == (0, 1)  # type: ignore[arg-type]
     assert (domain.dimension, domain.periodic_axes) == (2, (0,))

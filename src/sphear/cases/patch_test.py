@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -14,10 +14,13 @@ from sphear.cases.fields import Field as ScalarField
 from sphear.cases.fields import field as scalar_field
 from sphear.cases.lattice import Lattice, lattice
 from sphear.cases.stream import stream_velocity
+from sphear.checked import checked
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError, quoted
+from sphear.names import unknown
 from sphear.operators import Particles, arguments
 from sphear.operators.particles import needing_neighbours, too_few_neighbours
+from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, plain, text
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -27,7 +30,7 @@ class PatchTest(BaseModel):
     """The settings of a patch test on the unit square or cube.
 
     Attributes:
-        viscosity: names or aliases of the viscous terms; one given twice counts once.
+        viscosity: the viscous terms, by names or aliases or as objects; one given twice counts once.
         sizes: particles a side, each giving one spacing dx = 1 / size; one given twice counts once.
         field: name of a field or an expression of x, y, z.
         velocity: act on the divergence-free velocity whose stream function the field is, instead of on the field
@@ -35,20 +38,24 @@ class PatchTest(BaseModel):
         kernel, h_over_dx, correction, fallback, precision, threads: as `sphear.laplacian` takes them.
         dimension: 2 or 3.
         jitter: of the positions, in spacings.
-        seed: of the first of `seeds` sets of positions, whose errors are averaged.
+        seed: of the first set of positions.
+        seeds: sets of positions, whose errors are averaged.
         edges: "continued" sets particles beyond the edges too; "truncated" leaves the square alone in space.
         samples: "interior" takes the particles whose support lies inside the square, "all" those of the whole square.
+
+    Raises:
+        SphearError: a setting is unknown or wrong.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    viscosity: tuple[str, ...] = Field(default=("morris",), min_length=1)
+    viscosity: tuple[Term, ...] = Field(default=("morris",), min_length=1)
     sizes: tuple[Annotated[int, Field(ge=1, le=1_000_000)], ...] = Field(default=(20, 40, 60, 80, 100), min_length=1)
     field: str = "quartic"
     velocity: bool = False
-    kernel: str = "cubic_spline"
+    kernel: KernelSetting = "cubic_spline"
     h_over_dx: float | None = Field(default=None, ge=1e-6, le=1e6)
-    correction: str = "none"
+    correction: CorrectionSetting = "none"
     dimension: Literal[2, 3] = 2
     jitter: float = Field(default=0.0, ge=0, le=1)
     seed: int = Field(default=0, ge=0)
@@ -59,6 +66,15 @@ class PatchTest(BaseModel):
     precision: Literal["float64", "float32"] = "float64"
     threads: int | None = Field(default=None, ge=1)
 
+    if not TYPE_CHECKING:  # type checkers know the settings by the fields
+
+        def __init__(self, **settings: Any) -> None:
+            for key in settings:
+                if key not in type(self).model_fields:
+                    raise unknown("setting", key, type(self).model_fields)
+            with checked("the setting "):
+                super().__init__(**settings)
+
     def rows(self, progress: Callable[[str], None] = lambda text: None) -> list[dict[str, Any]]:
         """One row a term and size: the errors, averaged over the seeds, and the order from the size before.
 
@@ -68,7 +84,7 @@ class PatchTest(BaseModel):
         Raises:
             SphearError: an unknown name, a field or expression without a value somewhere, too few neighbours.
         """
-        terms = {VISCOSITY.name(name): arguments.read_viscosity(name) for name in self.viscosity}
+        terms = {text(plain(name, VISCOSITY)): arguments.read_viscosity(name) for name in self.viscosity}
         known = scalar_field(self.field, self.dimension)
         for term in terms.values():
             arguments.read_correction(self.correction, term)

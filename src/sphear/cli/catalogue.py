@@ -87,10 +87,14 @@ def _registry(kind: str) -> Any:
 
 
 def _first_line(item: Any) -> str:
-    """What the module of a kernel, correction or viscous term says of it."""
-    module = inspect.getmodule(item if inspect.isclass(item) else type(item))
-    text = module.__doc__ if module else None
-    return (text or "").strip().splitlines()[0].rstrip(".")
+    """The first line of what is said of a kernel, correction or viscous term.
+
+    That of its module, where it has one of its own; of the class of a user's, whose module may be a whole program.
+    """
+    kind = item if inspect.isclass(item) else type(item)
+    module = inspect.getmodule(kind) if kind.__module__.startswith("sphear.") else None
+    text = (module.__doc__ if module else kind.__doc__) or item.formula
+    return str(text).strip().partition("\n")[0].rstrip(".")
 
 
 def described(kind: str, name: str) -> dict[str, Any]:
@@ -124,15 +128,26 @@ def _described_case(name: str) -> dict[str, Any]:
     known = {plain(case): case for case in CASES}
     if plain(name) not in known:
         raise unknown("case", name, CASES)
+    from sphear.cli.explained import of_settings
+
     name = known[plain(name)]
     if name != "patch-test":
         from sphear.cases.flow import FLOWS
+        from sphear.schemes.presets import BY_SCHEME
 
         case = FLOWS[name]
         settings = {scheme: case.settings(scheme=scheme).model_dump(mode="json") for scheme in case.defaults}
-        return {"kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings}
+        about = {scheme: of_settings(case.kind(scheme)) for scheme in settings}
+        presets = {scheme: {key: dict(BY_SCHEME[scheme][key]) for key in BY_SCHEME[scheme]} for scheme in settings}
+        return {
+            "kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings,
+            "explained": about, "presets": presets,
+        }  # fmt: skip
     from sphear.cases.fields import FIELDS
     from sphear.cases.patch_test import PatchTest
 
     settings = {key: field.default for key, field in PatchTest.model_fields.items()}
-    return {"kind": "cases", "name": name, "summary": CASES[name], "fields": list(FIELDS), "settings": settings}
+    return {
+        "kind": "cases", "name": name, "summary": CASES[name], "fields": list(FIELDS), "settings": settings,
+        "explained": {"settings": of_settings(PatchTest)},
+    }  # fmt: skip

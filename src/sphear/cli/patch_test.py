@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from sphear.checked import checked
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.errors import SphearError, quoted
 from sphear.versions import versions
@@ -73,11 +72,9 @@ def _sizes(text: str) -> tuple[int, ...]:
 
 
 def _settings(**values: Any) -> PatchTest:
-    """The settings, checked: the first that is wrong in one sentence."""
     from sphear.cases.patch_test import PatchTest
 
-    with checked():
-        return PatchTest(**values)
+    return PatchTest(**values)
 
 
 def _title(test: PatchTest) -> tuple[str, str]:

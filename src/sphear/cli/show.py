@@ -18,7 +18,7 @@ def show(
     name: list[str] = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),
 ) -> None:
-    """Show formula, source and measured properties of one thing."""
+    """Show formula, source and measured properties of one thing, or the settings of a case and what they mean."""
     facts = described(kind_of(kind), " ".join(name))
     if as_json:
         print_json(facts)
@@ -26,6 +26,11 @@ def show(
         from sphear.viscosity.card import card
 
         print_text(card(None, facts["name"]).text())
+    elif facts["kind"] == "cases":
+        from sphear.cli.explained import case_lines
+
+        general = {key: facts[key] for key in ("kind", "name", "summary", "fields", "schemes") if key in facts}
+        print_text("\n".join((_lines(general), *case_lines(facts))))
     else:
         print_text(_lines(facts))
 

@@ -51,6 +51,15 @@ def with_symbols(formula: Any, symbol: Callable[[], Any]) -> Any:
     return copy
 
 
+def made_of(formula: Any) -> str:
+    """The class and the attributes of a formula, such as Cleary(xi=2, eta=0.1)."""
+    parts = (
+        (name, made_of(value) if dataclasses.is_dataclass(value) else repr(float(value) if is_float else value))
+        for name, is_float, value in _attributes(formula)
+    )
+    return f"{type(formula).__name__}({', '.join(f'{name}={part}' for name, part in parts)})"
+
+
 def leaves(value: Any) -> Iterator[Any]:
     """The numbers of a nested tuple, depth first."""
     if isinstance(value, tuple):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any, Literal
 
 import numpy as np
@@ -62,8 +63,15 @@ def read_property(values: ArrayLike, name: str, count: int) -> Array:
 
 
 def read_viscosity(viscosity: str | ViscousTerm) -> ViscousTerm:
-    """A viscous term by name, alias or as an object."""
-    return viscosity if isinstance(viscosity, ViscousTerm) else VISCOSITY[viscosity]
+    """A viscous term by name, alias or as an object, whose attributes are all fields: the engine knows no others."""
+    if not isinstance(viscosity, ViscousTerm):
+        return VISCOSITY[viscosity]
+    if hidden := sorted(set(vars(viscosity)) - {field.name for field in fields(viscosity)}):
+        raise SphearError(
+            f"the viscous term {type(viscosity).__name__} has {hidden[0]}, which is no field of it: make its class a"
+            " dataclass by @dataclass(frozen=True) and name it there"
+        )
+    return viscosity
 
 
 def read_correction(correction: str | int | Correction, term: ViscousTerm | None = None) -> Correction:

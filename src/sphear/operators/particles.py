@@ -67,7 +67,7 @@ def ignores_constants(term: ViscousTerm, correction: Correction, fallback: Fallb
     return term.of_differences(correction) and (correction.zeroth_order or not staged)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Particles:
     """Particles whose neighbours are known; made once, operated on many times.
 
@@ -87,6 +87,11 @@ class Particles:
     volumes: Array
     precision: str = "float64"
     each_pair_once: bool = False
+
+    def __repr__(self) -> str:
+        """How many, and their kernel."""
+        count, dimension = self.positions.shape
+        return f"<Particles: {count} in {dimension}-D, {self.kernel!r}, {self.precision}>"
 
     @classmethod
     def read(

@@ -59,7 +59,7 @@ def arrays(
         before = np.zeros((count, *values.shape[1:]))
         return np.concatenate((before, values)) if fixed else np.zeros((1, *values.shape[1:]))
 
-    roles, gas = formulas.rates.roles, settings.equation_of_state == "ideal_gas"
+    roles, gas = formulas.rates.roles, settings.gas
     fields = Fields(
         mass=np.full(total, problem.density * problem.spacing**dimension),
         viscosity=np.full(total, problem.density * problem.kinematic_viscosity),

@@ -94,6 +94,14 @@ class FlowInTime(Protocol):
         """What is said of the scheme before the first step, in a few words."""
 
 
+def described(flow: FlowInTime, viscosity: str) -> str:
+    """A flow in a line: its class, particles, viscous term and clock."""
+    return (
+        f"<{type(flow).__name__} of {flow.count} particles, {viscosity}: t = {flow.time:.6g}, {flow.steps} steps of"
+        f" {flow.time_step:.4g}>"
+    )
+
+
 def settings_type(scheme: str) -> type[Settings]:
     """The settings of a scheme.
 

@@ -12,18 +12,20 @@ import numpy as np
 from sphear.boundaries import WALL_VELOCITIES
 from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.threads import loop_threads, thread_count
-from sphear.equations_of_state import IdealGas
+from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
+from sphear.schemes.named import named
+from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
-from sphear.viscosity import VISCOSITY, ViscousTerm
+from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
@@ -145,7 +147,7 @@ class Flow:
             numba.set_num_threads(self.threads)
         if self.count > LARGE:
             keep_freed_memory()
-        fastest = math.inf if self.settings.equation_of_state == "ideal_gas" else self.sound_speed
+        fastest = math.inf if self.settings.gas else self.sound_speed
         if self.threads > 1 and loop_threads() == 1:  # made before this process was forked
             self.threads, self._loop = 1, self._loop_of(parallel=False)
         made, status, worst = self._loop.advance(
@@ -159,17 +161,21 @@ class Flow:
             place = ", ".join(f"{x:.6g}" for x in self._x[worst])
             raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
 
+    def __repr__(self) -> str:
+        """How many particles, by which term, and where they stand."""
+        return described(self, text(self.settings.viscosity))
+
     def metrics(self) -> dict[str, float]:
         """Nothing beside what the case says."""
         return {}
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
-        settings = self.settings
+        settings = named(self.settings)
         return {
-            "viscosity": VISCOSITY.name(settings.viscosity),
-            "correction": self.correction.name,
-            "kernel": self.kernel.name,
+            "viscosity": text(settings.viscosity),
+            "correction": text(settings.correction),
+            "kernel": text(settings.kernel),
             "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
             "momentum": settings.form,
             "h_over_dx": self.kernel.h / self.problem.spacing,
@@ -181,7 +187,7 @@ class Flow:
 
     def introduction(self) -> str:
         """The sound speed."""
-        return f"correction {self.settings.correction}, sound speed {self.sound_speed:g}"
+        return f"correction {text(self.settings.correction)}, sound speed {self.sound_speed:g}"
 
     def state(self) -> dict[str, Array]:
         """All that a run needs to go on, by name; copies."""
@@ -218,10 +224,20 @@ class Flow:
 
 
 def _sound_speed(problem: Problem, settings: FlowSettings) -> float:
-    if settings.equation_of_state == "ideal_gas":
-        return float(IdealGas().sound_speed(problem.density, _energy_at_rest(problem, settings)))
+    """That of the fluid at rest."""
+    equation, density = settings.equation_of_state, problem.density
+    if isinstance(equation, Barotropic) and equation.rho0 != density:
+        raise SphearError(
+            f"the equation of state {equation!r} is of another fluid: rho0 must be the density of the flow, {density:g}"
+        )
+    if settings.gas:
+        equation = equation if isinstance(equation, IdealGas) else IdealGas()
+    if isinstance(equation, EquationOfState):
+        return float(equation.sound_speed(density, _energy_at_rest(problem, settings)))
     return settings.sound_speed or morris_sound_speed(problem)
 
 
 def _energy_at_rest(problem: Problem, settings: FlowSettings) -> float:
-    return float(IdealGas().energy(problem.density, settings.initial_pressure))
+    gas = settings.equation_of_state
+    gas = gas if isinstance(gas, IdealGas) else IdealGas()
+    return float(gas.energy(problem.density, settings.initial_pressure))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from sphear.corrections import CORRECTIONS, Correction
+from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
 from sphear.engine.structure import parameters
 from sphear.equations_of_state import BatchelorTait, EquationOfState, IdealGas, Linear
@@ -29,6 +29,7 @@ from sphear.interactions import (
     ViscousForce,
 )
 from sphear.kernels import Kernel
+from sphear.operators.arguments import read_correction
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
 from sphear.viscosity.base import ViscousTerm
@@ -82,8 +83,8 @@ def formulas(
         sound_speed: at rest.
         time_step: which the transport velocity depends on.
     """
-    correction = CORRECTIONS[settings.correction]
-    of_term = CORRECTIONS["none"] if term.own_correction else correction
+    correction = read_correction(settings.correction)
+    of_term = NoCorrection() if term.own_correction else correction
     preparations = [("prepared", term.preparation(kernel, of_term))]
     prepared = "prepared"
     if term.own_correction:  # the pressure gradient's correction then needs sums of its own
@@ -92,10 +93,11 @@ def formulas(
     *before, _ = term.acceleration_stages(kernel, of_term)
     viscous = ViscousForce(term, kernel, of_term)
     rates = Rates((viscous, *_parts(settings, problem, kernel, correction, prepared, sound_speed, time_step)))
+    equation = _equation(settings, problem, sound_speed)
     return Formulas(
         density=SummationDensity(kernel) if settings.density == "summation" else None,
-        equation_of_state=_equation(settings, problem, sound_speed),
-        wall_state=IdealGas() if settings.equation_of_state == "ideal_gas" else Linear(problem.density, sound_speed),
+        equation_of_state=equation,
+        wall_state=equation if settings.gas else Linear(problem.density, sound_speed),
         wall=_wall(settings, problem, kernel),
         preparations=tuple((name, found) for name, found in preparations if found is not None),
         stages=(*before, rates),
@@ -104,7 +106,9 @@ def formulas(
 
 
 def _equation(settings: FlowSettings, problem: Problem, sound_speed: float) -> EquationOfState:
-    if settings.equation_of_state == "ideal_gas":
+    if isinstance(settings.equation_of_state, EquationOfState):
+        return settings.equation_of_state
+    if settings.gas:
         return IdealGas()
     equation = BatchelorTait if settings.equation_of_state == "batchelor_tait" else Linear
     return equation(problem.density, sound_speed)
@@ -120,7 +124,7 @@ def _parts(
     time_step: float,
 ) -> list[Part]:
     """Everything but the viscous force."""
-    gas = settings.equation_of_state == "ideal_gas"
+    gas = settings.gas
     continuity = settings.density == "continuity"
     at_rest = settings.initial_pressure if gas else 0.0
     parts: list[Part] = [

@@ -1,4 +1,4 @@
-"""Settings with the registered names, whatever alias was given."""
+"""Settings with the registered names, whatever alias was given; objects stay."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.names import Registry
 from sphear.pressure import PRECONDITIONERS
+from sphear.schemes.objects import plain
 from sphear.viscosity import VISCOSITY
 
 if TYPE_CHECKING:
@@ -28,13 +29,13 @@ REGISTRIES: dict[str, Registry[Any]] = {
 
 
 def named(settings: Chosen) -> Chosen:
-    """The same settings by the registered names.
+    """The same settings by the registered names; objects stay as they are.
 
     Raises:
         SphearError: something has no such name.
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
-    names = {key: REGISTRIES[key].name(value, _said(key)) for key, value in given.items()}
+    names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
     return settings.model_copy(update=names)
 
 

@@ -6,8 +6,10 @@ from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
+from sphear.equations_of_state import Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, SchemeSettings
+from sphear.schemes.objects import CorrectionSetting, EquationSetting, KernelSetting, Term, text
 
 
 class FlowSettings(SchemeSettings):
@@ -15,14 +17,15 @@ class FlowSettings(SchemeSettings):
 
     Attributes, beside those of all schemes:
         scheme: "explicit".
-        viscosity: name of a viscous term.
-        correction: name of a consistency correction of the kernel in the pressure, viscous and continuity sums. The
-            density sum stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b) W_ab is
-            the mean of the neighbours' densities, and would not know how far apart particles are. A term with a
+        viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.
+        correction: consistency correction of the kernel, a name or an object, in the pressure, viscous and continuity
+            sums. The density sum stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b)
+            W_ab is the mean of the neighbours' densities, and would not know how far apart particles are. A term with a
             correction of its own keeps it.
-        kernel: name of a kernel.
+        kernel: name of a kernel, or an object with its own h.
         h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
-        equation_of_state: "batchelor_tait", "linear" or "ideal_gas".
+        equation_of_state: "batchelor_tait", "linear" or "ideal_gas", or an object such as
+            `BatchelorTait(rho0, c0, gamma)`, which has the density of the flow, and its speed of sound.
         density: by "summation" (eq. 11) or by the "continuity" equation (eq. 10).
         momentum: "squares" (eq. 8, of the summation), "products" (eq. 9, of the continuity equation) or None for the
             one that belongs to the density.
@@ -48,11 +51,11 @@ class FlowSettings(SchemeSettings):
     """
 
     scheme: Literal["explicit"] = "explicit"
-    viscosity: str = "morris"
-    correction: str = "none"
-    kernel: str = "cubic_spline"
+    viscosity: Term = "morris"
+    correction: CorrectionSetting = "none"
+    kernel: KernelSetting = "cubic_spline"
     h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    equation_of_state: Literal["batchelor_tait", "linear", "ideal_gas"] = "batchelor_tait"
+    equation_of_state: EquationSetting = "batchelor_tait"
     density: Literal["summation", "continuity"] = "summation"
     momentum: Literal["squares", "products"] | None = None
     pressure_reduction: Literal["mean", "hydrostatic", "none"] = "mean"
@@ -71,13 +74,18 @@ class FlowSettings(SchemeSettings):
     initial_pressure: float = Field(default=125e3, gt=0, allow_inf_nan=False)
 
     @property
+    def gas(self) -> bool:
+        """Whether the fluid is an ideal gas, with an energy of its own."""
+        return self.equation_of_state == "ideal_gas" or isinstance(self.equation_of_state, IdealGas)
+
+    @property
     def form(self) -> Literal["squares", "products"]:
         """The form of the momentum equation that belongs to the density."""
         return "squares" if self.density == "summation" else "products"
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        gas = self.equation_of_state == "ideal_gas"
+        gas = self.gas
         contradictions = {
             f"density={self.density} and momentum={self.momentum} are not a variational pair (Bonet & Lok 1999), and"
             f" would not conserve energy: {self.density} goes with {self.form}": self.momentum not in (None, self.form),
@@ -97,6 +105,9 @@ class FlowSettings(SchemeSettings):
             "sound_speed follows from initial_pressure where equation_of_state=ideal_gas: give that instead": (
                 gas and self.sound_speed is not None
             ),
+            "sound_speed is that of the equation of state where this is an object: give its c0 instead": (
+                isinstance(self.equation_of_state, Barotropic) and self.sound_speed is not None
+            ),
             f"wall_particles stand on mirroring walls and walls={self.walls} has none: take walls=mirror or no"
             " wall_particles": self.wall_particles and self.walls != "mirror",
         }
@@ -113,8 +124,8 @@ class FlowSettings(SchemeSettings):
             "wall_velocity": (f"walls={self.walls}", self.walls == "adami") if walled else (OPEN, True),
             "slip": (OPEN, not walled),
             "initial_pressure": (
-                f"equation_of_state={self.equation_of_state}",
-                self.equation_of_state != "ideal_gas",
+                f"equation_of_state={text(self.equation_of_state)}",
+                not self.gas,
             ),
             "seed": (f"initial={self.initial}", self.initial != "relaxed"),
         }

@@ -61,7 +61,7 @@ def on_cluster(
             alone.look(threads)
             for _ in range(min(threads - len(running), len(waiting))):
                 run = waiting.pop()
-                running[client.submit(call, compute, run.case, run.given, pure=False, retries=0)] = run
+                running[client.submit(call, compute, run.case, run.sent, pure=False, retries=0)] = run
                 yield Started(run)
             if not running:
                 time.sleep(LOOK if not threads else 0)

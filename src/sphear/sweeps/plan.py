@@ -15,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 from sphear.errors import SphearError
 from sphear.positive import shown
 from sphear.sweeps.cost import Costs
+from sphear.sweeps.objects import sent
 
 if TYPE_CHECKING:  # sphear.cases.flow imports Numba, which a worker must not meet before it is set up
     from sphear.schemes.base import Settings
 
 MOST = 100_000  # runs
 TOLD_EVERY = 20  # runs
+LONGEST = 160  # letters of a file's name beside its hash
 IMMATERIAL = ("force", "threads")  # settings that do not change what a run finds
 
 
@@ -49,6 +51,11 @@ class Run:
         return self.settings.model_dump(mode="json")
 
     @cached_property
+    def sent(self) -> dict[str, Any]:
+        """The settings as a worker gets them, objects included."""
+        return sent(dict(self.settings))
+
+    @cached_property
     def key(self) -> str:
         """What the run is stored under: a few settings to read, and a hash of all that changes its result.
 
@@ -60,11 +67,10 @@ class Run:
         }
         digest = hashlib.sha256(json.dumps([self.case, matter], sort_keys=True).encode()).hexdigest()[:16]
         chosen = self.settings
+        viscosity, correction = self.given["viscosity"], self.given["correction"]
         scheme = "" if chosen.scheme == "explicit" else f"{chosen.scheme}-"
-        readable = (
-            f"{self.case}-{scheme}{chosen.viscosity}-{chosen.correction}-re{chosen.reynolds:g}-n{chosen.resolution}"
-        )
-        return f"{re.sub(r'[^A-Za-z0-9.+_-]', '_', readable)}-{digest}"
+        readable = f"{self.case}-{scheme}{viscosity}-{correction}-re{chosen.reynolds:g}-n{chosen.resolution}"
+        return f"{re.sub(r'[^A-Za-z0-9.+_-]', '_', readable)[:LONGEST]}-{digest}"
 
     @cached_property
     def cost(self) -> float:

@@ -15,6 +15,7 @@ from threading import Thread
 
 from sphear.errors import SphearError
 from sphear.sweeps.events import Event, Finished, Lost, Started, unexpected
+from sphear.sweeps.objects import check_sendable
 from sphear.sweeps.plan import Run
 from sphear.sweeps.worker import call, prepare
 
@@ -30,8 +31,9 @@ def on_processes(runs: Sequence[Run], workers: int, compute: str) -> Generator[E
         compute: import path of the function that computes a run.
 
     Raises:
-        SphearError: no process can be started.
+        SphearError: no process can be started, or a setting cannot be sent to one.
     """
+    check_sendable(runs)
     _start_resource_tracker()
     todo: queue.SimpleQueue[Run] = queue.SimpleQueue()
     for run in runs:
@@ -108,7 +110,7 @@ class _Feeder(Thread):
     def _computed(self, run: Run) -> Event:
         assert self.executor is not None
         try:
-            future = self.executor.submit(call, self.compute, run.case, run.given)
+            future = self.executor.submit(call, self.compute, run.case, run.sent)
             error = future.exception()
         except BrokenProcessPool as broken:
             error = broken

@@ -39,8 +39,10 @@ def _end_with_parent() -> None:
 def call(path: str, case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Call the function at an import path, `module:name`, with a case and its settings; the record it gives back."""
     one_thread()
+    from sphear.sweeps.objects import received
+
     module, _, name = path.partition(":")
-    result: dict[str, Any] = getattr(import_module(module), name)(case, settings)
+    result: dict[str, Any] = getattr(import_module(module), name)(case, received(settings))
     return result
 
 

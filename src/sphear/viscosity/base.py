@@ -24,10 +24,10 @@ class ViscousTerm:
     has, as `prepared`, what `preparation` has summed up for it.
     """
 
-    name: ClassVar[str]
+    name: ClassVar[str] = "unnamed"
     aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str]
-    source: ClassVar[str]
+    formula: ClassVar[str] = "not stated"
+    source: ClassVar[str] = "not stated"
     radial: ClassVar[bool] = False  # the pair force has a part along the line of centres: no Laplacian of a scalar
     own_correction: ClassVar[bool] = False  # carries a correction of its own and takes no other
     uses_second_derivatives: ClassVar[bool] = False

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from sphear.engine.structure import made_of
 
 if TYPE_CHECKING:
     from sphear.viscosity.base import ViscousTerm
@@ -98,11 +99,10 @@ def card(term: ViscousTerm | None, name: str | None = None) -> Card:
         assert name is not None
         term = VISCOSITY[name]
     known = next((key for key in VISCOSITY if VISCOSITY[key] == term), None)
-    fields = ", ".join(f"{field.name}={getattr(term, field.name)!r}" for field in dataclasses.fields(term))
     return Card(
         name=known or term.name,
-        setting=f"{type(term).__name__}({fields})",
-        aliases=tuple(VISCOSITY.aliases(known or term.name)),
+        setting=made_of(term),
+        aliases=tuple(VISCOSITY.aliases(known)) if known else (),
         formula=term.formula,
         source=term.source,
         acts_on="velocities" if term.radial else "velocities, and scalar fields as the Laplacian of each component",

@@ -78,7 +78,7 @@ class Plain:
         at = (others[None] + shifts[:, None]).reshape(-1, 2)
         d = places[:, None] - at[None]
         r = np.sqrt((d**2).sum(axis=-1))
-        return Pairs(np.tile(np.arange(len(others)), len(shifts)), d, r, *kernel(self.settings.kernel, r, radius))
+        return Pairs(np.tile(np.arange(len(others)), len(shifts)), d, r, *kernel(str(self.settings.kernel), r, radius))
 
     def around(self, x: Array) -> Pairs:
         """From the fluid to itself and the walls; particles on walls have a pressure only, and count for nothing."""
@@ -177,7 +177,7 @@ class Plain:
     def viscous(self, x: Array, u: Array) -> Array:
         pairs = self.around(x)
         around = self.continued(x, u) if len(self.wall.positions) else u
-        weights = self.laplacian(self.settings.viscosity, pairs)
+        weights = self.laplacian(str(self.settings.viscosity), pairs)
         difference = around[pairs.source][None] - u[:, None]
         return np.asarray(self.problem.kinematic_viscosity * np.einsum("ie,iek->ik", weights, difference))
 
@@ -197,13 +197,15 @@ class Plain:
         """The concentration over that of a lattice, minus 1."""
         ticks = np.arange(-4, 5) * self.dx
         lattice = np.hypot(*np.meshgrid(ticks, ticks))
-        return np.asarray(pairs.w.sum(axis=1) / kernel(self.settings.kernel, lattice, self.radius)[0].sum() - 1.0)
+        return np.asarray(pairs.w.sum(axis=1) / kernel(str(self.settings.kernel), lattice, self.radius)[0].sum() - 1.0)
 
     def pressure(self, x: Array, pairs: Pairs, source: Array, accelerations: Array) -> Array:
         """Of the fluid and the walls."""
         count, density, neumann = len(x), self.problem.density, self.settings.neumann
         walls, on = self.wall, self.on
-        weights = self.gathered(self.laplacian(self.settings.laplacian, pairs), pairs, count + len(walls.positions))
+        weights = self.gathered(
+            self.laplacian(str(self.settings.laplacian), pairs), pairs, count + len(walls.positions)
+        )
         unknowns = count + on
         slope = density * (accelerations * walls.normals).sum(axis=1)
         if on:
@@ -249,7 +251,7 @@ class Plain:
         """By how much particles are moved beside the flow."""
         settings, speed = self.settings, self.problem.speed
         if settings.shifting == "lind":
-            at_dx = kernel(settings.kernel, np.array(self.dx), self.radius)[0]
+            at_dx = kernel(str(settings.kernel), np.array(self.dx), self.radius)[0]
             factor = self.volume * (1.0 + 0.2 * (pairs.w / at_dx) ** 4) * pairs.g
             drift = -self.radius * speed * settings.shifting_strength * np.einsum("ie,iea->ia", factor, pairs.d)
         else:  # xu

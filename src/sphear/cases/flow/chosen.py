@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Unpack
 
 from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.options import FlowOptions
 from sphear.cases.flow.run import FlowRun
 from sphear.checked import checked
 from sphear.schemes.base import unknown_setting
 from sphear.schemes.presets import preset_settings
 
 
-def flow(case: str, /, *, preset: str | None = None, **settings: Any) -> FlowRun:
+def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOptions]) -> FlowRun:
     """A run of a flow, ready to start; velocities in those of the lid, the channel or the vortex, see the case.
 
         run = sphear.flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400, until=20).run()
@@ -20,9 +21,11 @@ def flow(case: str, /, *, preset: str | None = None, **settings: Any) -> FlowRun
         run.history, run.end, run.as_dict()["metrics"]
 
     Args:
-        case: its name: `sphear list cases`.
+        case: "poiseuille", "couette", "taylor-green", "cavity", "cavity-cylinder" or "dam-break".
         preset: settings that belong together, "paper" or "modern"; those given by name go before them.
-        settings: as `--set` of `sphear run` takes them; `sphear show case NAME` lists them.
+        settings: as `--set` of `sphear run` takes them, such as `scheme`, `viscosity`, `reynolds`, `resolution` and
+            `until`; `sphear show case NAME` says what each means, what it may be and what it is by default. Viscous
+            terms, kernels, corrections and equations of state are names or objects.
 
     Raises:
         SphearError: there is no such case, preset or setting, or one does not fit the others.

@@ -57,6 +57,15 @@ class FlowRun:
         self.saved: float | None = None
         self._warned = False
 
+    def __repr__(self) -> str:
+        """What is computed, how, and where it stands."""
+        settings, viscosity = self.settings, self.flow.resolved()["viscosity"]
+        where = f"{self.case.time_name} = {self.flow.time / self.unit:.4g}, step {self.flow.steps}"
+        return (
+            f"<FlowRun of {self.case.name}: {settings.scheme}, {viscosity}, Re = {settings.reynolds:g},"
+            f" {self.flow.count} particles, {where}{f', end: {self.end}' if self.end else ''}>"
+        )
+
     @property
     def planned(self) -> float:
         """When the run is expected to end, in the time unit of the case; infinite if nothing says."""

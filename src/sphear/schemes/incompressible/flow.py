@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from sphear.corrections import CORRECTIONS
 from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step
+from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
 from sphear.schemes.energy import EnergyBudget
 from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
@@ -25,8 +24,10 @@ from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.shifting import LEAST_STRETCHING, drift, stretching, unevenness
 from sphear.schemes.incompressible.sums import Discretisation, Sums
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
+from sphear.schemes.named import named
+from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
-from sphear.viscosity import VISCOSITY, ViscousTerm
+from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
@@ -35,6 +36,8 @@ PRESSURE_AT = {"midpoint": 0.5, "start": 0.0, "intermediate": 1.0}  # share of t
 COURANT = 0.4  # of smoothing lengths
 STABLE_SHIFTING = 0.25  # smoothing lengths a step and strength: half as much again makes particles clump
 USUAL_ALPHA = 10.0  # alpha over the time step in L / U: 0.01 at the step of 0.001 of Zheng, Ma & Shao (2018)
+
+CHOSEN = ("viscosity", "correction", "gradient_correction", "kernel", "laplacian")  # by a name or an object
 
 
 class IncompressibleFlow:
@@ -216,19 +219,19 @@ class IncompressibleFlow:
         self.guard.check_speed(self.time, self.x, self.u)
         self._distance = self.guard.put_back(self.time, self.x, self.u)
 
+    def __repr__(self) -> str:
+        """How many particles, by which term, and where they stand."""
+        return described(self, text(self.settings.viscosity))
+
     def metrics(self) -> dict[str, float]:
         """Iterations, residual, divergence, density and distances of particles now."""
         return diagnostics(self)
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
-        settings = self.settings
+        settings = named(self.settings)
         return {
-            "viscosity": VISCOSITY.name(settings.viscosity),
-            "correction": CORRECTIONS.name(settings.correction),
-            "gradient_correction": CORRECTIONS.name(settings.gradient_correction),
-            "kernel": self.kernel.name,
-            "laplacian": VISCOSITY.name(settings.laplacian),
+            **{key: text(getattr(settings, key)) for key in CHOSEN},
             "preconditioner": self.pressures.preconditioner,
             "h_over_dx": self.kernel.h / self.problem.spacing,
             "alpha": self.alpha,

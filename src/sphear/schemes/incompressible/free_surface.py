@@ -13,6 +13,7 @@ from sphear.interactions.free_surface import Concentration, NearSurface, Umbrell
 from sphear.kernels import Kernel
 from sphear.schemes.incompressible.places import Places
 from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.objects import text
 from sphear.viscosity.base import LaplacianTerm
 
 Array = np.ndarray[Any, Any]
@@ -62,8 +63,8 @@ def check_surface_settings(settings: IncompressibleSettings, laplacian: Laplacia
         raise SphearError(f"neumann={settings.neumann} {why}: with a free surface take mirror_points or adami")
     if laplacian.preparation(kernel, NoCorrection()) is not None:
         raise SphearError(
-            f"the setting laplacian={settings.laplacian} needs neighbours on all sides: with a free surface take one"
-            " without correction, such as morris"
+            f"the setting laplacian={text(settings.laplacian)} needs neighbours on all sides: with a free surface take"
+            " one without correction, such as morris"
         )
 
 

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, SchemeSettings
+from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, text
 
 
 class IncompressibleSettings(SchemeSettings):
@@ -17,14 +18,14 @@ class IncompressibleSettings(SchemeSettings):
 
     Attributes, beside those of all schemes:
         scheme: "incompressible".
-        viscosity: name of a viscous term.
-        correction: of the viscous term; one with a correction of its own takes no other.
-        kernel: name of a kernel.
+        viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.
+        correction: of the viscous term, a name or an object; one with a correction of its own takes no other.
+        kernel: name of a kernel, or an object with its own h.
         h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
         gradient: of the pressure, from "differences" p_j - p_i or "symmetric", p_j + p_i (eq. 3), which conserves
             momentum.
-        gradient_correction: name of the correction of gradient and divergence.
-        laplacian: the viscous term whose Laplacian the pressure equation has; "morris" is eq. 14.
+        gradient_correction: name of the correction, or an object, of gradient and divergence.
+        laplacian: the viscous term, a name or an object, whose Laplacian the pressure equation has; "morris" is eq. 14.
         alpha: share of the density in the source of the pressure equation (eq. 13); the rest is that of the
             divergence. Crowding decays in the time dt / alpha. None takes 10 U dt / L, which is the paper's 0.01 at its
             time step of 0.001.
@@ -51,13 +52,13 @@ class IncompressibleSettings(SchemeSettings):
     """
 
     scheme: Literal["incompressible"] = "incompressible"
-    viscosity: str = "fatehi_manzari"
-    correction: str = "none"
-    kernel: str = "wendland_c2"
+    viscosity: Term = "fatehi_manzari"
+    correction: CorrectionSetting = "none"
+    kernel: KernelSetting = "wendland_c2"
     h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     gradient: Literal["differences", "symmetric"] = "differences"
-    gradient_correction: str = "renormalised"
-    laplacian: str = "morris"
+    gradient_correction: CorrectionSetting = "renormalised"
+    laplacian: Term = "morris"
     alpha: float | None = Field(default=None, ge=0, le=1)
     projection: Literal["midpoint", "intermediate", "start"] = "midpoint"
     neumann: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
@@ -76,8 +77,8 @@ class IncompressibleSettings(SchemeSettings):
     def _consistent(self) -> Self:
         if self.gradient == "symmetric" and self.gradient_correction != "none":
             raise SphearError(
-                f"gradient=symmetric conserves momentum and gradient_correction={self.gradient_correction} does not:"
-                " take gradient=differences or gradient_correction=none"
+                f"gradient=symmetric conserves momentum and gradient_correction={text(self.gradient_correction)} does"
+                " not: take gradient=differences or gradient_correction=none"
             )
         if self.solid != "none":
             from sphear.boundaries.shapes import written

@@ -1,0 +1,72 @@
+"""The settings of all flows as type checkers know them."""
+
+from __future__ import annotations
+
+from typing import TypedDict
+
+from sphear.corrections import Correction
+from sphear.equations_of_state import EquationOfState
+from sphear.kernels import Kernel
+from sphear.viscosity import ViscousTerm
+
+
+class FlowOptions(TypedDict, total=False):
+    """The settings of any case by any scheme; `sphear show case NAME` says what each means and what it may be."""
+
+    # of all
+    scheme: str
+    viscosity: str | ViscousTerm
+    correction: str | Correction
+    kernel: str | Kernel
+    h_over_dx: float | None
+    initial: str
+    seed: int
+    reynolds: float
+    resolution: int
+    until: float | None
+    max_steps: int
+    time_step: float | None
+    force: bool
+    threads: int | None
+    wall_velocity: str
+    slip: bool
+    shifting_strength: float
+
+    # of the explicit scheme
+    equation_of_state: str | EquationOfState
+    density: str
+    momentum: str | None
+    pressure_reduction: str
+    density_diffusion: float
+    diffusion_form: str
+    walls: str
+    wall_particles: bool
+    integrator: str
+    transport: str
+    background_pressure: float
+    sound_speed: float | None
+    initial_pressure: float
+
+    # of the incompressible scheme
+    gradient: str
+    gradient_correction: str | Correction
+    laplacian: str | ViscousTerm
+    alpha: float | None
+    projection: str
+    neumann: str
+    shifting: str
+    solid: str
+    viscous_step: str
+    preconditioner: str
+    tolerance: float
+
+    # of cavity-cylinder
+    diameter: float
+    centre_x: float
+    centre_y: float
+    spin: float
+
+    # of dam-break
+    column: float
+    tank: float
+    tank_height: float

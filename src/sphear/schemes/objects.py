@@ -1,0 +1,84 @@
+"""Settings that are registered names or objects: how they are read, and how they are written down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import is_dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, InstanceOf, PlainSerializer, PlainValidator, ValidationInfo
+
+from sphear.corrections import CORRECTIONS, Correction
+from sphear.engine.structure import made_of
+from sphear.equations_of_state import Barotropic, IdealGas
+from sphear.errors import SphearError
+from sphear.kernels import KERNELS, Kernel
+from sphear.names import Registry
+from sphear.operators import arguments
+from sphear.viscosity import VISCOSITY, ViscousTerm
+
+
+def text(value: Any) -> str:
+    """A name as it is; an object as its class and what it is made of, such as Cleary(xi=2, eta=0.1)."""
+    if isinstance(value, str):
+        return value
+    return repr(value) if isinstance(value, type) or not is_dataclass(value) else made_of(value)
+
+
+def plain(name: Any, registry: Registry[Any], key: str = "") -> Any:
+    """The registered name of a name or an alias; an object as it is.
+
+    Args:
+        name: or object.
+        registry: of the names.
+        key: the setting, where an error would not name it by what it takes.
+
+    Raises:
+        SphearError: there is no such name.
+    """
+    return registry.name(name, key) if isinstance(name, str) else name
+
+
+def _reader(registry: Registry[Any], kind: type, read: Callable[[Any], Any]) -> Callable[[Any, ValidationInfo], Any]:
+    """Take names as they are, and objects of a kind: those that are registered by their names."""
+
+    def reader(value: Any, info: ValidationInfo) -> Any:
+        if isinstance(value, kind):
+            known = (name for name in registry if registry[name] == value)
+            return next(known, None) or read(value)
+        if isinstance(value, str):
+            return value
+        raise SphearError(
+            f"the setting {info.field_name} should be a name, such as {next(iter(registry))!r}, or an object of the"
+            f" class {kind.__name__}, not {text(value)}"
+        )
+
+    return reader
+
+
+def _chosen(registry: Registry[Any], kind: type, read: Callable[[Any], Any] = lambda value: value) -> Any:
+    return PlainValidator(_reader(registry, kind, read))
+
+
+WRITTEN = PlainSerializer(text, return_type=str, when_used="json")
+
+Term = Annotated[str | ViscousTerm, _chosen(VISCOSITY, ViscousTerm, arguments.read_viscosity), WRITTEN]
+CorrectionSetting = Annotated[str | Correction, _chosen(CORRECTIONS, Correction), WRITTEN]
+KernelSetting = Annotated[str | Kernel, _chosen(KERNELS, Kernel), WRITTEN]
+
+
+def _equation(value: Any) -> Any:
+    """The default ideal gas by its name; only names and objects."""
+    if not isinstance(value, str | Barotropic | IdealGas):
+        raise SphearError(
+            "the setting equation_of_state should be 'batchelor_tait', 'linear', 'ideal_gas' or an object of the class"
+            f" Barotropic or IdealGas, not {text(value)}"
+        )
+    return "ideal_gas" if value == IdealGas() else value
+
+
+EquationSetting = Annotated[
+    Literal["batchelor_tait", "linear", "ideal_gas"] | InstanceOf[Barotropic] | InstanceOf[IdealGas],
+    BeforeValidator(_equation),
+    WRITTEN,
+]
