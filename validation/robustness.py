@@ -24,7 +24,14 @@ KEPT = Path(__file__).with_suffix(".json")
 RESOLUTIONS = (13, 17, 19, 23, 29, 37, 43, 53)
 REYNOLDS = (1e-3, 1e-1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5)
 STEPS = {"explicit": 6000, "incompressible": 400}
-UNTIL = {"poiseuille": 5.0, "couette": 5.0, "taylor-green": 1.5, "cavity": 3.0, "cavity-cylinder": 3.0, "dam-break": 3.3}
+UNTIL = {
+    "poiseuille": 5.0,
+    "couette": 5.0,
+    "taylor-green": 1.5,
+    "cavity": 3.0,
+    "cavity-cylinder": 3.0,
+    "dam-break": 3.3,
+}
 
 DEFAULT: dict[str, Any] = {}
 IMPLICIT = {"viscous_step": "crank_nicolson"}
@@ -41,7 +48,14 @@ KINDS: dict[str, tuple[str, dict[str, Any]]] = {
     if not (scheme == "explicit" and case in ("cavity-cylinder", "dam-break"))
     if not (name == "paper" and case == "dam-break")  # its walls need fluid on all sides
 }
-FIELDS = ("kinetic_energy", "energy_residual", "energy_created", "density_deviation", "smallest_distance", "largest_gap")
+FIELDS = (
+    "kinetic_energy",
+    "energy_residual",
+    "energy_created",
+    "density_deviation",
+    "smallest_distance",
+    "largest_gap",
+)
 
 
 def wanted(part: str) -> Iterator[tuple[str, int, float]]:
@@ -124,14 +138,19 @@ def compute(part: str, workers: int) -> None:
 def keep(kept: dict[str, Any]) -> None:
     """Write what is kept, a run a line."""
     beside = KEPT.with_suffix(".tmp")
-    beside.write_text("{\n" + ",\n".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in sorted(kept.items())) + "\n}\n")
+    beside.write_text(
+        "{\n" + ",\n".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in sorted(kept.items())) + "\n}\n"
+    )
     beside.replace(KEPT)
 
 
 def table(part: str) -> str:
     """How many runs of each kind failed, at which cell Reynolds numbers, and what the others made of their energy."""
     kept = json.loads(KEPT.read_text())
-    rows = ["| kind | runs | failed | least cell Re of a failure | largest created | untold failures |", "|---|---|---|---|---|---|"]
+    rows = [
+        "| kind | runs | failed | least cell Re of a failure | largest created | untold failures |",
+        "|---|---|---|---|---|---|",
+    ]
     for kind in KINDS:
         runs = [value for key, value in kept.items() if key.startswith(kind + " ") and part in kind]
         ran = [one for one in runs if not one["end"].startswith("refused")]

@@ -60,7 +60,9 @@ class Watch:
         least = NOTHING * flow.problem.speed
         if not self.driven and (speed := _largest(flow.velocities)) > OVERTAKEN * max(self.fastest, least):
             what = "fastest wall" if self.walls == self.fastest else "fastest particle at the start"
-            times = f"{speed / self.fastest:.3g} times as fast as the {what}" if self.fastest else "on its way from rest"
+            times = (
+                f"{speed / self.fastest:.3g} times as fast as the {what}" if self.fastest else "on its way from rest"
+            )
             return f"fluid is {times}, and no force drives it"
         budget: EnergyBudget | None = getattr(flow, "energy_budget", None)
         if not self.walls and not self.varied and self.heights is not None:
@@ -92,7 +94,9 @@ def _largest(velocities: Array) -> float:
 
 def wall_speed(problem: Problem) -> float:
     """The speed of the fastest wall."""
-    speeds = [math.hypot(*velocity) for velocity in (problem.box.lower_velocity, problem.box.upper_velocity) if velocity]
+    speeds = [
+        math.hypot(*velocity) for velocity in (problem.box.lower_velocity, problem.box.upper_velocity) if velocity
+    ]
     if problem.shape is not None:
         speeds.append(fastest(problem.shape, problem.spacing, problem.window))
     return max(speeds, default=0.0)

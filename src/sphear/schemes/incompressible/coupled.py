@@ -149,7 +149,9 @@ class Coupling:
             result: Array = (self.residual(scale * z) - constant) / scale
             return result
 
-        run = flexible_gmres(times, -constant / scale, guess / scale, self.precondition, viscous.TOLERANCE, viscous.MOST)
+        run = flexible_gmres(
+            times, -constant / scale, guess / scale, self.precondition, viscous.TOLERANCE, viscous.MOST
+        )
         found = scale * run.values
         residual = norm(self.residual(found))
         if not residual <= viscous.DRIFT * floor:
