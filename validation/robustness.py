@@ -4,9 +4,9 @@
     python validation/robustness.py --kinds cavity   # the kinds whose name has that in it
     python validation/robustness.py --table          # draw up what is kept
 
-Each run goes on until its particles are disordered or, where viscosity limits the step, for so many steps. Kept are how it
-ended, what it made of its energy and how far its particles went; a run that is kept with the same settings is not made
-again. Stopped, it goes on where it stood.
+Each run goes on until its particles are disordered or, where viscosity limits the step, for so many steps. Kept are how
+it ended, what it made of its energy and how far its particles went; a run that is kept with the same settings is not
+made again. Stopped, it goes on where it stood.
 """
 
 from __future__ import annotations

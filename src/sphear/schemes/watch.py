@@ -1,4 +1,4 @@
-"""What no fluid does: energy that nobody gave, speeds that nothing drives; and flows that the particles do not resolve."""
+"""Signs that a flow is none: energy that nobody gave, speeds that nothing drives, layers that are not resolved."""
 
 from __future__ import annotations
 
@@ -55,7 +55,8 @@ class Watch:
         - Fluid that no force drives is not faster than 1.25 times the fastest wall or particle at the start.
         - Where walls are at rest, kinetic energy, that of sound and that in a constant force do not grow by more than
           1 % of their start or, from rest, of the energy that was turned over.
-        - The residual of the energy budget does not rise by more than 10 % of the energy that was there and turned over.
+        - The residual of the energy budget does not rise by more than 10 % of the energy that was there and turned
+          over.
         """
         least = NOTHING * flow.problem.speed
         if not self.driven and (speed := _largest(flow.velocities)) > OVERTAKEN * max(self.fastest, least):

@@ -1,4 +1,4 @@
-"""Lattices that the flow through a stagnation point stretches: symmetric, so that shifting alone leaves gaps in them."""
+"""Lattices that the flow through a stagnation point stretches: by symmetry, shifting alone leaves gaps in them."""
 
 from __future__ import annotations
 
