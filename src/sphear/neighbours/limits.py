@@ -26,7 +26,10 @@ def free_memory() -> float:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
         free = 1024.0 * int(next(line for line in lines if line.startswith("MemAvailable")).split()[1])
     group = Path("/sys/fs/cgroup")
-    for most, used in (("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")):
+    for most, used in (
+        ("memory.max", "memory.current"),
+        ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes"),
+    ):
         with contextlib.suppress(OSError, ValueError):
             free = min(free, float((group / most).read_text()) - float((group / used).read_text()))
     return max(free, 0.0)

@@ -155,7 +155,9 @@ class Neighbours:
 
     def _listed(self, once: bool) -> list[Chunk]:
         refuse_pairs(self._cells.start, self._cells.rows, REACH, len(self._cells.order), self.count, once)
-        share = min(2 * self.threads, max(1, self.count)) if self.threads > 1 else 1  # each thread has as many chunks, every second one too
+        share = (
+            min(2 * self.threads, max(1, self.count)) if self.threads > 1 else 1
+        )  # each thread has as many chunks, every second one too
         parts = share * -(-self.count // (share * CHUNK_ROWS))
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
