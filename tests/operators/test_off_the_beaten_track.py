@@ -78,7 +78,7 @@ def test_masks_are_refused_wherever_arrays_come_in() -> None:
 def test_what_loses_nothing_is_taken() -> None:
     expected = laplacian(X, F, spacing=DX)
     for values in (np.ma.MaskedArray(F), Series(F, np.arange(144)), [Decimal(float(x)) for x in F]):
-        np.testing.assert_array_equal(laplacian(X, values, spacing=DX), expected)  # type: ignore[arg-type]
+        np.testing.assert_array_equal(laplacian(X, values, spacing=DX), expected)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks are of POSIX")
@@ -240,7 +240,7 @@ def test_planes_are_of_second_order_for_smooth_fields() -> None:
 def test_points_with_too_few_particles_for_a_plane() -> None:
     x = np.concatenate((X, [[3.0, 3.0], [3.05, 3.0]]))
     field, at = 1.0 + x @ np.array([1.0, 2.0]), np.array([[0.3, 0.3], [3.02, 3.0], [9.0, 9.0]])
-    with pytest.raises(TooFewNeighboursError, match="1 of 3 points have too few .*the first is point 1 at"):
+    with pytest.raises(TooFewNeighboursError, match=r"1 of 3 points have too few .*the first is point 1 at"):
         interpolate(x, field, at=at, spacing=DX, correction="linear")
     found = interpolate(x, field, at=at, spacing=DX, correction="linear", fallback="nan")
     np.testing.assert_allclose(found, [1.9, np.nan, np.nan], atol=1e-12)
