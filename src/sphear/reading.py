@@ -1,4 +1,4 @@
-"""Arrays that a user gives, read once and for all: real numbers as they are, and refused what would lose its meaning."""
+"""Arrays that a user gives, read: real numbers as they are; what would lose its meaning is refused."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def positive_number(value: Any, name: str) -> float:
 def _lost(values: Any) -> str | None:
     """What the conversion to an array would drop, in words; None if nothing."""
     if isinstance(values, np.ma.MaskedArray):
-        masked = int(np.ma.count_masked(values))
+        masked = int(np.ma.getmaskarray(values).sum())
         return f"{masked} of its {values.size} values are masked: leave these particles out" if masked else None
     if isinstance(values, list | tuple):
         # one look at each type of elements; rows are looked into

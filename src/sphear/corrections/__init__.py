@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sphear.corrections.base import Correction
 from sphear.corrections.bonet_lok import BonetLok
+from sphear.corrections.moving_least_squares import MovingLeastSquares
 from sphear.corrections.none import NoCorrection
 from sphear.corrections.renormalised import Renormalised
 from sphear.corrections.shepard import Shepard
@@ -13,4 +14,10 @@ CORRECTIONS: Registry[Correction] = Registry("correction")
 for _correction in (NoCorrection(), Shepard(), BonetLok(), Renormalised()):
     CORRECTIONS.add(_correction.name, _correction, _correction.aliases)
 
-__all__ = ["CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"]
+# of values at points only, by name and alias
+VALUE_CORRECTIONS = {name: MovingLeastSquares() for name in (MovingLeastSquares.name, *MovingLeastSquares.aliases)}
+
+__all__ = [
+    "CORRECTIONS", "VALUE_CORRECTIONS", "BonetLok", "Correction", "MovingLeastSquares", "NoCorrection", "Renormalised",
+    "Shepard",
+]  # fmt: skip

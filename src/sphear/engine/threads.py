@@ -58,7 +58,7 @@ _without_openmp: list[int] = []  # processes forked from one whose threads were 
 
 
 def loop_threads() -> int:
-    """The threads that compiled parallel loops may use: one in a child forked after OpenMP was used, which would die."""
+    """The threads that compiled loops may use: one in a child forked after OpenMP was used, which would be ended."""
     import numba
 
     return 1 if os.getpid() in _without_openmp else int(numba.config.NUMBA_NUM_THREADS)

@@ -26,6 +26,24 @@ class Interpolation(Sum):
 
 
 @dataclass(frozen=True)
+class PlaneSums(Sum):
+    """The sums of the plane that fits a field around a point best: V_j W_ij times 1, y, f, y (x) y and y (x) f.
+
+    y = (r_j - r_i) / h. At a point of evaluation, as `Interpolation`.
+    """
+
+    kernel: Kernel
+
+    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> Any:
+        """The pair's part of the sums; of the symmetric ones the upper triangle."""
+        weight = other.volume * self.kernel.value(r2, len(d))
+        y = scale(-1.0 / self.kernel.h, d)
+        wy = scale(weight, y)
+        squares = tuple(wy[a] * y[b] for a in range(len(d)) for b in range(a, len(d)))
+        return weight, wy, scale(weight, other.values), squares, tuple(scale(x, other.values) for x in wy)
+
+
+@dataclass(frozen=True)
 class NumberDensity:
     """sum_j W_ij, the particle itself included: one over the volume of a particle."""
 

@@ -8,12 +8,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from sphear.corrections import CORRECTIONS, Correction
+from sphear.corrections import CORRECTIONS, VALUE_CORRECTIONS, Correction, MovingLeastSquares
 from sphear.engine.sweep import sweep
 from sphear.errors import SphearError
 from sphear.interactions import NumberDensity
 from sphear.kernels import KERNELS, Kernel
 from sphear.neighbours import Domain, Neighbours
+from sphear.operators.spacing import spacing_of
 from sphear.reading import positive_number, real_numbers
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
@@ -74,9 +75,21 @@ def read_viscosity(viscosity: str | ViscousTerm) -> ViscousTerm:
     return viscosity
 
 
-def read_correction(correction: str | int | Correction, term: ViscousTerm | None = None) -> Correction:
-    """A correction by name, alias, level (0, 1) or as an object; none beside a term that has its own."""
+def read_correction(
+    correction: str | int | Correction, term: ViscousTerm | None = None, *, of_values: bool = False
+) -> Correction:
+    """A correction by name, alias, level (0, 1) or as an object; none beside a term that has its own.
+
+    With `of_values` also those that have values only.
+    """
+    if not isinstance(correction, Correction) and str(correction).lower().replace("-", "_") in VALUE_CORRECTIONS:
+        correction = VALUE_CORRECTIONS[str(correction).lower().replace("-", "_")]
     chosen = correction if isinstance(correction, Correction) else CORRECTIONS[str(correction)]
+    if isinstance(chosen, MovingLeastSquares) and not of_values:
+        raise SphearError(
+            f"correction {chosen.name!r} is of values only, for interpolate: derivatives of linear fields are exact"
+            f" with 'bonet_lok' or 'renormalised'"
+        )
     if term is not None and term.own_correction and chosen.name != "none":
         raise SphearError(
             f"viscosity {term.name!r} carries its own correction and takes no other: correction must be 'none',"
@@ -97,10 +110,7 @@ def read_kernel(kernel: str | Kernel, h_over_dx: float | None, spacing: float) -
 
 
 def read_spacing(spacing: float | None, positions: Array, volumes: Array | None, domain: Domain | None) -> float:
-    """The particle spacing dx: as given, or from the volumes, the periodic domain, or the box around the particles.
-
-    The last is exact for a lattice: n^d particles in a box of (n - 1) dx.
-    """
+    """The particle spacing dx: as given, or from the volumes, the periodic domain, or how near the particles are."""
     count, dimension = positions.shape
     if spacing is not None:
         return positive_number(spacing, "the particle spacing")
@@ -108,13 +118,7 @@ def read_spacing(spacing: float | None, positions: Array, volumes: Array | None,
         return float(volumes.mean() ** (1 / dimension))
     if domain is not None and len(domain.periodic_axes) == dimension:
         return float((np.prod(np.subtract(domain.upper, domain.lower)) / count) ** (1 / dimension))
-    extent = np.ptp(positions, axis=0)
-    extent = extent[extent > 0]
-    intervals = count ** (1 / max(1, len(extent))) - 1
-    if not len(extent) or intervals <= 0:
-        raise SphearError("the particle spacing cannot be told from these positions: give spacing, volumes or a kernel")
-    volume = float(np.prod(extent))
-    return float(volume ** (1 / len(extent)) / intervals)
+    return spacing_of(positions if domain is None else domain.wrapped(positions))
 
 
 def particle_volumes(kernel: Kernel, neighbours: Neighbours, each_pair_once: bool = False) -> Array:

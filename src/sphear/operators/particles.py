@@ -36,7 +36,14 @@ def needing_neighbours(term: ViscousTerm, correction: Correction) -> str:
 
 
 def too_few_neighbours(
-    lacking: Array, positions: Array, what: str, first: str, larger: str, fallback: Fallback | None = None
+    lacking: Array,
+    positions: Array,
+    what: str,
+    first: str,
+    larger: str,
+    fallback: Fallback | None = None,
+    *,
+    of: str = "particles",
 ) -> TooFewNeighboursError:
     """The error of too few neighbours.
 
@@ -47,11 +54,12 @@ def too_few_neighbours(
         first: words between "the first" and the place of the first that lacks them.
         larger: the setting to enlarge.
         fallback: that did not help.
+        of: what lacks them.
     """
     place = ", ".join(f"{x:.6g}" for x in positions[lacking[0]])
     remedy = "" if fallback == "nan" else ", or ask for fallback 'uncorrected' or 'nan'"
     return TooFewNeighboursError(
-        f"{len(lacking)} of {len(positions)} particles have too few neighbours for {what}, the first {first} ({place}):"
+        f"{len(lacking)} of {len(positions)} {of} have too few neighbours for {what}, the first {first} ({place}):"
         f" take a larger {larger}{remedy}"
     )
 

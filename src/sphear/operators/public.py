@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from sphear.corrections import Correction
-from sphear.engine.sweep import sweep
 from sphear.errors import SphearError
-from sphear.interactions import Interpolation
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
+from sphear.operators.interpolation import interpolated
 from sphear.operators.particles import Fallback, Particles
 from sphear.viscosity import ViscousTerm
 
@@ -45,7 +44,7 @@ def laplacian(
         viscosity: name, alias (a paper's label too) or object of a term that is a Laplacian of each component.
         kernel: by name, with `h_over_dx`, or an object such as `CubicSpline(h)`.
         h_over_dx: smoothing length over particle spacing; default: a support of 3.14 dx, about 30 neighbours in 2-D.
-        spacing: dx; default: from the volumes, a fully periodic domain, or the box around the particles.
+        spacing: dx; default: from the volumes, a fully periodic domain, or how near the particles are to each other.
         correction: "none", "shepard" (level 0), "bonet_lok" (level 1), "renormalised", or an object.
         volumes: (N,) or one number; default: V_i = 1 / sum_j W_ij.
         domain: a box with periodic axes; default: open space.
@@ -58,8 +57,13 @@ def laplacian(
         An array of the shape of `values`, in units of value over length squared.
 
     Raises:
-        SphearError: unknown names, shapes that disagree, values that are not finite, coincident particles, sizes that
-            are not positive; TooFewNeighboursError where a correction or a fit cannot be computed.
+        SphearError: unknown names, shapes that disagree, values that are not finite or no plain numbers (masked, with
+            units, in the order of an index), coincident particles, sizes that are not positive, particles none of which
+            has a neighbour, more memory than half of what is free; TooFewNeighboursError where a correction or a fit
+            cannot be computed.
+
+    Warns:
+        SphearWarning: of particles without neighbours, and of volumes over which the kernel does not sum to one.
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,
@@ -179,23 +183,29 @@ def interpolate(
     correction: str | int | Correction = "none",
     volumes: ArrayLike | None = None,
     domain: Domain | None = None,
+    fallback: Fallback | None = None,
     precision: str = "float64",
     threads: int | None = None,
 ) -> Array:
     """A field at any points, sum_j V_j f_j W_ij, divided by sum_j V_j W_ij with a correction of order zero.
 
+    With correction="moving_least_squares" (or "linear"), the value of the plane that fits the particles within the
+    support best, each with the weight V_j W_ij: exact for linear fields, of second order for smooth ones, also near
+    edges and on disordered particles.
+
     Args:
         positions: (N, d).
         values: (N,) or (N, k).
         at: (M, d), where; default: at the particles.
-        kernel, h_over_dx, spacing, correction, volumes, domain, precision, threads: as in `laplacian`; "bonet_lok"
-            has the same value as "shepard", "renormalised" the same as "none".
+        kernel, h_over_dx, spacing, correction, volumes, domain, fallback, precision, threads: as in `laplacian`;
+            "bonet_lok" has the same value as "shepard", "renormalised" the same as "none".
 
     Returns:
         (M,) or (M, k); NaN where a corrected value is asked for and no particle is within the kernel's support.
 
     Raises:
-        SphearError: as `laplacian`.
+        SphearError: as `laplacian`; TooFewNeighboursError where a point has particles within the support, but too few
+            or too much in one line for a plane.
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,
@@ -203,22 +213,10 @@ def interpolate(
     )  # fmt: skip
     count = len(particles.positions)
     field = arguments.read_field(values, "values", count)
-    chosen = arguments.read_correction(correction)
+    chosen = arguments.read_correction(correction, of_values=True)
     points = particles.positions if at is None else arguments.read_positions(at, domain, "at")
     if points.shape[1] != particles.positions.shape[1]:
         raise SphearError(f"at has {points.shape[1]} axes but positions has {particles.positions.shape[1]}")
-    # the points become particles of no volume, which add nothing to any sum
-    everywhere = np.concatenate((particles.positions, points))
-    neighbours = Neighbours(everywhere, particles.kernel.radius, domain, threads=threads, keep_coincident=True)
-    sums = sweep(
-        Interpolation(particles.kernel),
-        neighbours,
-        dtype=particles.precision,
-        values=np.concatenate((field, np.zeros((len(points), field.shape[1])))),
-        volume=np.concatenate((particles.volumes, np.zeros(len(points)))),
-    )[count:]
-    result = sums[:, :-1]
-    if chosen.zeroth_order:
-        with np.errstate(invalid="ignore", divide="ignore"):
-            result = np.where(sums[:, -1:] > 0, result / sums[:, -1:], np.nan)
+    neighbours = Neighbours(particles.positions, particles.kernel.radius, domain, threads=threads, at=points)
+    result = interpolated(particles, neighbours, points, field, chosen, fallback)
     return result.reshape(len(points), *np.shape(values)[1:])

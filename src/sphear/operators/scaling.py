@@ -40,7 +40,7 @@ class InUnits:
         if precision == "float64" and ORDINARY[0] < kernel.h < ORDINARY[1]:
             return cls(kernel, neighbours, volumes, 1.0)
         unit = power_of_two(kernel.h)
-        scaled: Any = replace(kernel, h=kernel.h / unit)  # type: ignore[type-var]
+        scaled: Any = replace(kernel, h=kernel.h / unit)
         return cls(scaled, neighbours.scaled(unit), volumes / unit**neighbours.dimension, unit)
 
 

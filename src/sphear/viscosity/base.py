@@ -47,7 +47,7 @@ class ViscousTerm:
 
     @property
     def homogeneous(self) -> bool:
-        """Whether the term is linear in velocity and viscosity and has no constant with a unit, so that units cancel."""
+        """Whether the term is linear in velocity and in viscosity and has no constant with a unit: units cancel."""
         return True
 
     def preparation(self, kernel: Kernel, correction: Correction) -> Any:
