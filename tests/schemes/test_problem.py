@@ -164,7 +164,9 @@ def test_fluid_that_a_solid_cuts_in_two_is_refused_at_the_start() -> None:
         positions=left, velocities=0 * left, box=Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls")), shape=room & ~wall,
         spacing=1 / 24,
     )  # fmt: skip
-    with pytest.raises(SphearError, match=r"falls into 2 parts without a common neighbour.* nothing fixes the pressure"):
+    with pytest.raises(
+        SphearError, match=r"falls into 2 parts without a common neighbour.* nothing fixes the pressure"
+    ):
         flow_in_time(cut, IncompressibleSettings(threads=1))
 
 
