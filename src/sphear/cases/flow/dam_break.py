@@ -21,6 +21,9 @@ Array = np.ndarray[Any, Any]
 
 WIDTH, GRAVITY, DENSITY = 1.0, 1.0, 1.0  # of the column
 FEWEST = 4  # particles
+AHEAD = (
+    2.0  # widths of the column: the front is not at the opposite wall before the time T of the tank's width less these
+)
 GAP = 2.0  # spacings, from which on particles are spray
 
 
@@ -36,6 +39,15 @@ class DamBreakSettings(IncompressibleSettings):
     column: float = Field(default=2.0, gt=0, le=100, allow_inf_nan=False)
     tank: float = Field(default=6.0, ge=1.5, le=1000, allow_inf_nan=False)
     tank_height: float = Field(default=2.0, ge=1.2, le=100, allow_inf_nan=False)
+
+    def without_effect(self, walled: bool) -> list[str]:
+        """Beside what has no effect: that a run may end before its time."""
+        said = super().without_effect(walled)
+        if self.until is not None and self.until > self.tank - AHEAD:
+            said.append(
+                f"a run of dam-break ends when its front is at the opposite wall, maybe before until={self.until:g}"
+            )
+        return said
 
 
 def speed(settings: Settings) -> float:
