@@ -122,7 +122,7 @@ def test_a_name_is_suggested_in_one_spelling_and_quoted_as_it_was_given() -> Non
 
 def test_the_setting_is_named_where_it_is_called_otherwise_than_its_kind() -> None:
     with pytest.raises(
-        SphearError, match="^the setting laplacian is to be a viscosity, and there is no viscosity named"
+        SphearError, match=r"^the setting laplacian is to be a viscosity, and there is no viscosity named"
     ):
         VISCOSITY.name("x", "the setting laplacian")
 

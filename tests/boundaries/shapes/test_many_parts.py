@@ -37,7 +37,7 @@ def test_the_distance_from_a_polygon_is_that_from_all_its_edges(count: int) -> N
     np.testing.assert_allclose(Polygon(star(count)).distance(POINTS), signed_distance(star(count), POINTS), atol=1e-11)
 
 
-@pytest.mark.parametrize("far", [20, 150, 399])
+@pytest.mark.parametrize("far", [20, 150, 250])
 def test_of_many_edges_any_two_that_meet_are_found(far: int) -> None:
     vertices = star(400)
     vertices[far] = (5.0, 0.1) if far > 100 else (-5.0, 0.1)
