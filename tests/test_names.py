@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from sphear import CORRECTIONS, KERNELS, VISCOSITY, SphearError
+from sphear.errors import quoted
 from sphear.names import Registry, unknown
 
 REGISTRIES = {"kernel": KERNELS, "correction": CORRECTIONS, "viscosity": VISCOSITY}
@@ -107,3 +108,33 @@ def test_every_registered_thing_says_its_formula_and_source(kind: str) -> None:
         assert registry[name].formula
         assert registry[name].source
         assert registry[name].__doc__
+
+
+def test_a_name_is_suggested_in_one_spelling_and_quoted_as_it_was_given() -> None:
+    registry: Registry[int] = Registry("case")
+    registry.add("cavity-cylinder", 1)
+    with pytest.raises(SphearError) as told:
+        registry["my_cavity_cylinder"]
+    assert str(told.value) == (
+        "there is no case named 'my_cavity_cylinder': did you mean cavity-cylinder? case is one of cavity-cylinder"
+    )
+
+
+def test_the_setting_is_named_where_it_is_called_otherwise_than_its_kind() -> None:
+    with pytest.raises(
+        SphearError, match=r"^the setting laplacian is to be a viscosity, and there is no viscosity named"
+    ):
+        VISCOSITY.name("x", "the setting laplacian")
+
+
+@pytest.mark.parametrize(
+    "name", ["k" * 100_000, "\n" * 5000, [[0] * 9] * 9999, 10**5000], ids=["k", "lines", "lists", "n"]
+)
+def test_what_is_refused_is_not_repeated_whole(name: Any) -> None:
+    assert len(quoted(name)) <= 80
+    assert len(str(SphearError(f"not {name if isinstance(name, str) else quoted(name)}"))) <= 1200
+    assert "\n" not in quoted(name)
+
+
+def test_short_values_are_quoted_as_python_writes_them() -> None:
+    assert [quoted(value) for value in ("a", 1.5, None, (1, 2))] == ["'a'", "1.5", "None", "(1, 2)"]

@@ -21,7 +21,8 @@ EXACT = ("fatehi_manzari", "least_squares", "least_squares_3", "least_squares_4"
 def square(count: int, jitter: float = 0.0) -> Array:
     ticks = (np.arange(count) + 0.5) / count
     places = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), -1).reshape(-1, 2)
-    return places + jitter / count * (np.random.default_rng(1).random(places.shape) - 0.5)
+    moved: Array = places + jitter / count * (np.random.default_rng(1).random(places.shape) - 0.5)
+    return moved
 
 
 def acceleration(term: Any, x: Array, velocities: Array, mu: Array, **more: Any) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any, Literal
@@ -49,11 +50,12 @@ class Box:
                     f"the {name} corner of a box has one to three numbers, one an axis, not {quoted(corner)}"
                 )
             object.__setattr__(self, name, found)
-        if isinstance(self.sides, str) or not hasattr(self.sides, "__len__"):
+        sides: object = self.sides
+        if isinstance(sides, str) or not isinstance(sides, Sequence):
             raise SphearError(
-                f"the sides of a box are given one an axis, as in ('periodic', 'walls'), not {quoted(self.sides)}"
+                f"the sides of a box are given one an axis, as in ('periodic', 'walls'), not {quoted(sides)}"
             )
-        object.__setattr__(self, "sides", tuple(self.sides))
+        object.__setattr__(self, "sides", tuple(sides))
         dimension = len(self.lower)
         if not len(self.upper) == len(self.sides) == dimension:
             raise SphearError(

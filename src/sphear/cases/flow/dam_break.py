@@ -22,6 +22,7 @@ Array = np.ndarray[Any, Any]
 WIDTH, GRAVITY, DENSITY = 1.0, 1.0, 1.0  # of the column
 FEWEST = 4  # particles
 AT_WALL = "the front is at the wall"
+AHEAD = 2.0  # widths of the column: the front takes at least the tank's width less these to the opposite wall
 GAP = 2.0  # spacings, from which on particles are spray
 
 
@@ -37,6 +38,15 @@ class DamBreakSettings(IncompressibleSettings):
     column: float = Field(default=2.0, gt=0, le=100, allow_inf_nan=False)
     tank: float = Field(default=6.0, ge=1.5, le=1000, allow_inf_nan=False)
     tank_height: float = Field(default=2.0, ge=1.2, le=100, allow_inf_nan=False)
+
+    def without_effect(self, walled: bool) -> list[str]:
+        """Beside what has no effect: that a run may end before its time."""
+        said = super().without_effect(walled)
+        if self.until is not None and self.until > self.tank - AHEAD:
+            said.append(
+                f"a run of dam-break ends when its front is at the opposite wall, maybe before until={self.until:g}"
+            )
+        return said
 
 
 def speed(settings: Settings) -> float:
