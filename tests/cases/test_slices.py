@@ -192,6 +192,7 @@ def test_slices_take_half_a_second() -> None:
 class Clock:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.now = 100.0
+        monkeypatch.delenv("SPHEAR_SAVE_SECONDS")
         monkeypatch.setattr(time, "monotonic", lambda: self.now)
 
 

@@ -24,7 +24,7 @@ SIGNATURES = {".png": b"\x89PNG\r\n\x1a\n", ".svg": b"<?xml", ".json": b"{", ".c
 def test_patch_test_prints_its_settings_and_rows_as_json(sphear: Run) -> None:
     found = sphear(*SMALL, "-v", "morris", "-v", "oger", "--json").json()
     test = PatchTest(viscosity=("morris", "oger"), sizes=(12, 20))
-    assert list(found) == ["case", "settings", "rows"]
+    assert list(found) == ["case", "settings", "versions", "rows"]
     assert (found["case"], found["settings"]) == ("patch-test", test.model_dump(mode="json"))
     assert found["rows"] == test.rows()
 
@@ -117,7 +117,7 @@ def test_an_error_of_zero_can_be_drawn(sphear: Run, tmp_path: Path) -> None:
 
 def test_table_1_as_json(sphear: Run) -> None:
     found = sphear("reproduce", "zheng2018", "table-1", "--json").json()
-    assert list(found) == ["study", "item", "rows", "other_readings", "claim", "finding", "agrees"]
+    assert list(found) == ["study", "item", "versions", "rows", "other_readings", "claim", "finding", "agrees"]
     assert (found["study"], found["item"]) == ("zheng2018", "table-1")
     assert [(row["viscosity"], row["particles"], row["published"]) for row in found["rows"]] == [
         (name, size, value) for name, values in TABLE_1.items() for size, value in zip(SIZES, values, strict=True)

@@ -22,7 +22,7 @@ CYLINDER = ("run", "cavity-cylinder", "--resolution", "24", "--set", "diameter=0
 @pytest.mark.parametrize("command", [CAVITY, CYLINDER])
 def test_json_is_one_document_with_all_settings_resolved(command: tuple[str, ...], sphear: Run) -> None:
     result = sphear(*command, "--set", "max_steps=3", "--json").json()
-    assert list(result) == ["case", "settings", "metrics", "profiles", "performance"]
+    assert list(result) == ["case", "settings", "metrics", "profiles", "versions", "performance"]
     settings = result["settings"]
     assert set(IncompressibleSettings.model_fields) <= set(settings)
     assert [key for key, value in settings.items() if value is None] == []

@@ -120,6 +120,6 @@ def test_a_flow_is_stored_as_it_was_computed(store: Store) -> None:
     assert result.history[-1] == pytest.approx(alone["history"][-1])
     assert store.get(run) == result
     stored = json.loads(store.path(run).read_text())
-    assert list(stored) == ["format", "case", "settings", "metrics", "end", "performance", "history"]
+    assert list(stored) == ["format", "case", "settings", "metrics", "end", "performance", "history", "versions"]
     assert stored["settings"]["sound_speed"] > 0
     assert of_record(stored) == result

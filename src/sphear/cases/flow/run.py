@@ -12,7 +12,7 @@ import numpy as np
 
 from sphear.cases.flow.base import FlowCase, Settings
 from sphear.cases.flow.own_walls import opened
-from sphear.cases.flow.pace import Savings, Slices
+from sphear.cases.flow.pace import Copies, Savings, Slices
 from sphear.cases.flow.saved import About, check, read, write
 from sphear.schemes.base import FlowFailure, flow_in_time
 from sphear.schemes.named import named
@@ -93,30 +93,34 @@ class FlowRun:
             warn: told if the state cannot be saved, in one sentence; the run goes on.
 
         Raises:
-            KeyboardInterrupt: Ctrl-C, or `stopped`; the flow is that of the last half second, and can go on.
+            KeyboardInterrupt: Ctrl-C, after which the flow is that of the last copy, at most half a second back or a
+                hundred times as long as a copy takes, or `stopped`; the flow can go on.
         """
         steps = min(self.planned * self.unit / self.flow.time_step, self.settings.max_steps)
         every = int(np.clip(steps / OUTPUTS, 1, 1000))
         until = np.inf if self.settings.until is None else self.settings.until * self.unit
-        slices, savings = Slices(), Savings(steps, self.flow.steps)
-        safe = self.flow.state(), len(self.history)
+        slices, copies, savings = Slices(), Copies(), Savings(steps, self.flow.steps)
+        safe = self._now()
         if self._recorded and not self.end:  # gone on with: it may have been interrupted at its last output
             self.end = self._verdict(self.history[-1], until)
         try:
             self.flow.advance(0)  # compiles
             while not self.end:
                 if stopped():
+                    safe = self._now()
                     raise KeyboardInterrupt
                 if not self._due(every, until):
                     self._advance(slices, every, until)
-                if self._failed or self._due(every, until):
+                if output := self._failed or self._due(every, until):
                     self._observe(until)
                 if self._failed:
                     break
-                safe = self.flow.state(), len(self.history)
+                began, save = time.monotonic(), keep is not None and savings.due(self.flow.steps)
+                if output or save or copies.due():
+                    safe = self._now()
+                    copies.taken(began)
                 progress(self._standing(steps))
-                if keep is not None and savings.due(self.flow.steps):
-                    began = time.monotonic()
+                if keep is not None and save:
                     self._try_to_save(keep, safe, warn)
                     savings.tried(began, self.flow.steps)
         except KeyboardInterrupt:
@@ -130,6 +134,10 @@ class FlowRun:
         if keep is not None:
             self._try_to_save(keep, safe, warn, always=True)
         return self
+
+    def _now(self) -> tuple[dict[str, Array], int]:
+        """The state, a copy, and how many rows of the history belong to it."""
+        return self.flow.state(), len(self.history)
 
     @property
     def _failed(self) -> bool:
@@ -203,7 +211,7 @@ class FlowRun:
         Raises:
             OSError: it cannot be written.
         """
-        self._save(path, (self.flow.state(), len(self.history)))
+        self._save(path, self._now())
 
     def _save(self, path: Path, kept: tuple[dict[str, Array], int]) -> None:
         state, rows = kept
