@@ -18,6 +18,7 @@ from sphear.errors import SphearError
 
 # what Typer raises for wrong options; it is not under a public name of its own
 _UsageError: Any = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+LONGEST = 200  # letters of what is said of wrong options
 _INTERRUPTED = 130  # what Typer makes of Ctrl-C
 
 app = typer.Typer(
@@ -65,7 +66,8 @@ def run() -> int:
     try:
         status = app(standalone_mode=False, prog_name="sphear")
     except _UsageError as error:
-        text = error.format_message().rstrip(".")
+        text = " ".join(error.format_message().split()).rstrip(".")
+        text = text if len(text) <= LONGEST else f"{text[:LONGEST]}..."  # it repeats what it refuses
         where = f" (see {error.ctx.command_path} --help)" if getattr(error, "ctx", None) else ""
         raise SphearError(f"{text[:1].lower()}{text[1:]}{where}") from None
     except typer.Abort as abort:
