@@ -15,7 +15,6 @@ import sphear.cases.patch_test as case
 Run = Callable[..., Any]
 
 GENERAL = {
-    "": "missing command",
     "lits": "no such command 'lits'. Did you mean 'list'?",
     "--nonsense": "no such option: --nonsense",
     "list kernls": "no kind named 'kernls': did you mean kernels",

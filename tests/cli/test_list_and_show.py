@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from sphear import CORRECTIONS, KERNELS, VISCOSITY, __version__
+from sphear import CORRECTIONS, KERNELS, VISCOSITY, Morris, __version__
 from sphear.cases.fields import FIELDS
 from sphear.cases.flow import FLOWS
 from sphear.cases.patch_test import PatchTest
@@ -135,6 +135,44 @@ def test_a_case_is_shown_with_its_fields_and_settings(sphear: Run) -> None:
     assert facts["settings"] == PatchTest().model_dump(mode="json")
 
 
+@pytest.mark.parametrize("name", ["patch-test", *FLOWS])
+def test_every_setting_of_a_case_is_explained_in_80_columns(name: str, sphear: Run) -> None:
+    facts = sphear("show", "case", name, "--json").json()
+    found = sphear("show", "case", name)
+    assert (found.status, found.err) == (0, "")
+    assert [line for line in found.out.splitlines() if len(line) > 79] == []
+    for scheme, about in facts["explained"].items():
+        assert list(about) == list(facts[scheme])
+        for setting, one in about.items():
+            assert min(len(one["meaning"]), len(one["values"])) > 3
+            assert f"\n    {setting} = " in found.out
+    for presets in facts.get("presets", {}).values():
+        assert all(f"--preset {preset} " in found.out for preset in presets)
+
+
+def test_choices_and_bounds_are_shown(sphear: Run) -> None:
+    said = " ".join(sphear("show", "case", "dam-break").out.split())
+    for text in ("neumann = mirror_points mirror_points, adami, sfdi, natural", "tank = 6 a number >= 1.5 and <= 1000",
+                 "alpha = none a number >= 0 and <= 1, or none", "kernel = wendland_c2 cubic_spline, quartic_spline",
+                 "column = 2 a number > 0 and <= 100 its height over its width."):  # fmt: skip
+        assert text in said
+
+
+def test_a_users_term_is_listed_and_shown(sphear: Run) -> None:
+    class Mine(Morris):
+        """One from a script."""
+
+        name = "mine"
+
+    VISCOSITY.add("mine", Mine())
+    try:
+        listed = sphear("list", "viscosity", "--json").json()["viscosity"]
+        assert listed[-1] == {"name": "mine", "aliases": [], "summary": "One from a script"}
+        assert sphear("show", "viscosity", "mine").out.startswith("Mine(eta=None)\n")
+    finally:
+        VISCOSITY.remove("mine")
+
+
 @pytest.mark.parametrize("name", list(FLOWS))
 def test_a_flow_is_shown_with_the_settings_of_each_scheme(name: str, sphear: Run) -> None:
     facts = sphear("show", "case", name.replace("-", "_"), "--json").json()
@@ -154,7 +192,7 @@ def test_a_preconditioner_is_shown_with_its_formula(name: str, sphear: Run) -> N
     assert listed[name] == PRECONDITIONERS.aliases(name)
 
 
-@pytest.mark.parametrize("arguments", [("--version",), ("--help",), ("-h",)])
+@pytest.mark.parametrize("arguments", [("--version",), ("--help",), ("-h",), ()])
 def test_what_answers_at_once(arguments: tuple[str, ...], sphear: Run) -> None:
     found = sphear(*arguments)
     assert (found.status, found.err) == (0, "")

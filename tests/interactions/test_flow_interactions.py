@@ -75,7 +75,7 @@ def gradients(known: dict[str, Any], correction: str) -> tuple[Array, Array, Arr
     d = np.append(d, np.zeros((COUNT, 2)), axis=0)
     r2 = (d**2).sum(axis=1)
     apart = r2 > 0
-    w = np.where(apart, KERNEL.value(np.where(apart, r2, 1.0), 2), KERNEL.value_at_zero(2))
+    w = np.asarray(np.where(apart, KERNEL.value(np.where(apart, r2, 1.0), 2), KERNEL.value_at_zero(2)))
     grad_w = np.where(apart, KERNEL.gradient_factor(np.where(apart, r2, 1.0), 2), 0.0)[:, None] * d
     if correction != "none":
         one = summed(i, known["volume"][j] * w, COUNT)

@@ -181,7 +181,7 @@ def test_gradient_and_hessian_are_derivatives_in_space(name: str, direction: tup
 
     slopes = along_each_axis(lambda x: value(kernel, np.linalg.norm(x), dimension))
     np.testing.assert_allclose(gradient(d), slopes, rtol=1e-6, atol=1e-8)
-    hessian: np.ndarray = np.array(kernel.hessian(tuple(d), float(d @ d)))  # type: ignore[type-arg]
+    hessian: np.ndarray = np.array(kernel.hessian(tuple(d), float(d @ d)))
     np.testing.assert_allclose(hessian, along_each_axis(gradient), rtol=1e-5, atol=1e-7)
     np.testing.assert_allclose(hessian, hessian.T)
 

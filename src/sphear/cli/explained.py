@@ -25,7 +25,7 @@ def of_settings(kind: type[BaseModel]) -> dict[str, dict[str, str]]:
 
 
 def case_lines(facts: Mapping[str, Any]) -> list[str]:
-    """The settings of a case, those that all its schemes share first, and its presets."""
+    """What a case is, its settings, those that all its schemes share first, and its presets."""
     schemes = facts.get("schemes", ["settings"])
     first = schemes[0]
     both = [
@@ -37,7 +37,10 @@ def case_lines(facts: Mapping[str, Any]) -> list[str]:
             for scheme in schemes
         )
     ]
-    lines = _section("settings" if len(schemes) == 1 else "settings of every scheme", facts, first, both)
+    lines = [str(facts["name"]), *_wrapped(facts["summary"])]
+    if "fields" in facts:
+        lines += _wrapped(f"fields: {', '.join(facts['fields'])}")
+    lines += _section("settings" if len(schemes) == 1 else "settings of every scheme", facts, first, both)
     for scheme in schemes:
         own = [name for name in facts[scheme] if name not in both]
         if own:

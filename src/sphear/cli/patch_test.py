@@ -72,9 +72,14 @@ def _sizes(text: str) -> tuple[int, ...]:
 
 
 def _settings(**values: Any) -> PatchTest:
+    """The settings; a wrong one is called as the option is."""
     from sphear.cases.patch_test import PatchTest
 
-    return PatchTest(**values)
+    try:
+        return PatchTest(**values)
+    except SphearError as error:
+        said = str(error).removeprefix("the setting ")
+        raise SphearError(said.replace("h_over_dx should", "h-over-dx should")) from None
 
 
 def _title(test: PatchTest) -> tuple[str, str]:

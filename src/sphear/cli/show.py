@@ -29,8 +29,7 @@ def show(
     elif facts["kind"] == "cases":
         from sphear.cli.explained import case_lines
 
-        general = {key: facts[key] for key in ("kind", "name", "summary", "fields", "schemes") if key in facts}
-        print_text("\n".join((_lines(general), *case_lines(facts))))
+        print_text("\n".join(case_lines(facts)))
     else:
         print_text(_lines(facts))
 
