@@ -18,6 +18,7 @@ from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
+from sphear.schemes.incompressible.places import in_box
 from sphear.schemes.incompressible.pressures import Pressures
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.shifting import drift
@@ -52,7 +53,8 @@ class IncompressibleFlow:
         time: reached.
         steps: made.
         positions, velocities: (N, d).
-        pressure: (N,), at the `pressure_time` and the `pressure_positions`, (N, d).
+        pressure: (N,), at the positions; of the `pressure_time`.
+        pressure_positions, pressure_slopes: (N, d), where it was found, and its gradient there.
         pressures: it, and how it was solved for.
         discretisation: how fields become sums.
         limits: the time steps that the CFL, viscous, body-force and shifting conditions allow.
@@ -81,9 +83,9 @@ class IncompressibleFlow:
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
         self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.time_step, self.term.radial)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
-        self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
+        self.x = in_box(np.ascontiguousarray(problem.positions, np.float64), self.discretisation.domain).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
-        self.pressure_positions = self.x
+        self.pressure_positions, self.pressure_slopes = self.x, np.zeros_like(self.u)
         self._distance: Array | None = None  # of the particles from walls, where it is known already
 
     @property
@@ -98,8 +100,11 @@ class IncompressibleFlow:
 
     @property
     def pressure(self) -> Array:
-        """(N,), at the `pressure_time` and the `pressure_positions`."""
-        return self.pressures.fluid
+        """(N,), at the positions, along its gradient from where it was found; of the `pressure_time`."""
+        moved, domain = self.x - self.pressure_positions, self.discretisation.domain
+        moved = moved if domain is None else domain.shortest(moved)
+        result: Array = self.pressures.fluid + (self.pressure_slopes * moved).sum(axis=1)
+        return result
 
     @property
     def pressure_time(self) -> float:
@@ -164,17 +169,19 @@ class IncompressibleFlow:
         return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
 
     def _projected(self, sums: Sums, u: Array, moved: float) -> tuple[Sums, Array, Array]:
-        """Velocities (N, d) after prediction and projection, the pressure (N + W,), and the sums where it acts."""
+        """The sums where pressure acts, velocities (N, d) after prediction and projection, and slopes of the pressure."""
         step, x = self.time_step, sums.places.positions[: self.count]
         acceleration = self._predicted(sums, u, self.time + moved)
         predicted = u + step * acceleration
         if self.settings.projection == "intermediate":
             self.guard.check_speed(self.time, x, predicted)
-            sums = self.discretisation.at(x + step * predicted)
+            sums = self.discretisation.at(in_box(x + step * predicted, self.discretisation.domain))
         even = sums.even(acceleration)
         before = sums.divergent(u, -moved) + step * even
         pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
-        return sums, predicted - step / self.problem.density * sums.pressure_gradient(pressures), pressures
+        gradient = sums.pressure_gradient(pressures)
+        after = predicted - step / self.problem.density * gradient
+        return sums, after, sums.pressure_slopes(pressures, gradient)
 
     def _step(self) -> None:
         step, u = self.time_step, self.u.copy()  # before dry walls velocities change
@@ -184,13 +191,14 @@ class IncompressibleFlow:
             x = x + moved * u
             self.guard.check_speed(self.time, self.x, u)
             distance = self.guard.put_back(self.time, x, u)
+            x = in_box(x, self.discretisation.domain)
         sums = self.discretisation.at(x, distance)
         if self.coupled is not None:
             force = self._force(sums, self.time + moved)
-            after, pressures = self.coupled.solve(sums, u, force, step, moved, self.steps)
+            after, slopes = self.coupled.solve(sums, u, force, step, moved, self.steps)
         else:
-            sums, after, pressures = self._projected(sums, u, moved)
-        self.pressure_positions = sums.places.positions[: self.count]
+            sums, after, slopes = self._projected(sums, u, moved)
+        self.pressure_positions, self.pressure_slopes = sums.places.positions[: self.count], slopes
         x = x + (0.5 * step - moved) * u + 0.5 * step * after
         if self.drift is not None:
             shift = step * sums.places.sum(self.drift)
@@ -206,6 +214,7 @@ class IncompressibleFlow:
         self.steps += 1
         self.guard.check_speed(self.time, self.x, self.u)
         self._distance = self.guard.put_back(self.time, self.x, self.u)
+        self.x = in_box(self.x, self.discretisation.domain)
 
     def metrics(self) -> dict[str, float]:
         """Iterations, residual, divergence, density and distances of particles now."""
@@ -246,6 +255,7 @@ class IncompressibleFlow:
             "pressure": self.pressures.fluid,
             "wall_pressure": self.pressures.on_walls,
             "pressure_x": self.pressure_positions,
+            "pressure_slopes": self.pressure_slopes,
         }
 
     def restore(self, state: dict[str, Array]) -> None:
@@ -256,6 +266,9 @@ class IncompressibleFlow:
         """
         check_state(state, self._arrays())
         self.x, self.u = np.array(state["x"]), np.array(state["v"])
-        self.pressure_positions = np.array(state["pressure_x"])
+        self.pressure_positions, self.pressure_slopes = (
+            np.array(state["pressure_x"]),
+            np.array(state["pressure_slopes"]),
+        )
         self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])
         self.time, self.steps, self._distance = float(state["clock"][0]), int(state["clock"][1]), None
