@@ -109,7 +109,10 @@ class IncompressibleFlow:
     @property
     def pressure_time(self) -> float:
         """Of which time the pressure is: `projection=midpoint` finds it in the middle of a step."""
-        return self.time - (1.0 - PRESSURE_AT[self.settings.projection]) * self.time_step if self.steps else 0.0
+        projection = self.settings.projection
+        if self.coupled is not None and projection == "intermediate":  # places that only a prediction knows
+            projection = "start"
+        return self.time - (1.0 - PRESSURE_AT[projection]) * self.time_step if self.steps else 0.0
 
     @property
     def density(self) -> Array:
@@ -169,7 +172,7 @@ class IncompressibleFlow:
         return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
 
     def _projected(self, sums: Sums, u: Array, moved: float) -> tuple[Sums, Array, Array]:
-        """The sums where pressure acts, velocities (N, d) after prediction and projection, and slopes of the pressure."""
+        """The sums where pressure acts, velocities (N, d) after the projection, and the slopes of the pressure."""
         step, x = self.time_step, sums.places.positions[: self.count]
         acceleration = self._predicted(sums, u, self.time + moved)
         predicted = u + step * acceleration

@@ -20,7 +20,7 @@ Prepared = tuple[tuple[Shape, ...], list[Array]]
 
 
 def in_box(positions: Array, domain: Domain | None) -> Array:
-    """Positions (N, d) with those beyond a periodic side moved by whole periods into the box; others to the last bit."""
+    """Positions (N, d), those beyond a periodic side moved by whole periods into the box, the others as they are."""
     if domain is None:
         return positions
     low, high, periodic = np.array(domain.lower), np.array(domain.upper), np.array(domain.periodic)
