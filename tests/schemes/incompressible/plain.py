@@ -194,7 +194,8 @@ class Plain:
         """The concentration over that of a lattice, minus 1."""
         ticks = np.arange(-4, 5) * self.dx
         lattice = np.hypot(*np.meshgrid(ticks, ticks))
-        return np.asarray(pairs.w.sum(axis=1) / kernel(self.settings.kernel, lattice, self.radius)[0].sum() - 1.0)
+        found = np.asarray(pairs.w.sum(axis=1) / kernel(self.settings.kernel, lattice, self.radius)[0].sum() - 1.0)
+        return found - found.mean() if self.on else found  # rows of particles on walls have none
 
     def pressure(self, x: Array, pairs: Pairs, source: Array, accelerations: Array) -> Array:
         """Of the fluid and the walls."""

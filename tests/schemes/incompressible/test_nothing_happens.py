@@ -30,9 +30,11 @@ def flow(
 @pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
 def test_a_channel_of_any_period(period: float, neumann: str) -> None:
     run = flow(period, True, (1.0, 0.0), (0.0, 0.0), neumann=neumann)
-    run.advance(4)
-    assert run.time * 0.3 < run.velocities[:, 0].max() < run.time
-    assert np.abs(run.velocities[:, 1]).max() < 1e-6
+    run.advance(1)
+    assert np.abs(run.velocities[:, 1]).max() < 1e-9
+    run.advance(3)
+    assert run.time * 0.3 < run.velocities[:, 0].max() <= run.time * (1.0 + 1e-9)
+    assert np.abs(run.velocities[:, 1]).max() < 5e-6  # sums over lattices that are sheared see another density
 
 
 @pytest.mark.parametrize("period", [1.03, 1.3])
@@ -47,7 +49,7 @@ def test_nothing_moves_at_rest(period: float, neumann: str) -> None:
 
 @pytest.mark.parametrize("period", [1.03, 1.21])
 def test_a_stream_stays_uniform_and_in_its_box(period: float) -> None:
-    run = flow(period, False, (0.0, 0.0), (1.0, 0.7), time_step=0.05)
+    run = flow(period, False, (0.0, 0.0), (1.0, 0.7), time_step=0.03)
     start = run.positions.copy()
     run.advance(30)
     np.testing.assert_allclose(run.velocities, [(1.0, 0.7)] * run.count, atol=1e-6)
