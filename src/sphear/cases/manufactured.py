@@ -50,10 +50,10 @@ def manufactured(exact: ClosedVortex, count: int) -> Problem:
 def relative_errors(flow: IncompressibleFlow, exact: Exact) -> tuple[float, float]:
     """Of velocity and of pressure: the norm of the difference over that of the exact one, pressures without means.
 
-    Each at the places and the time that it belongs to.
+    Each of the time that it belongs to.
     """
     velocity = np.asarray(exact.velocity(flow.positions, flow.time))
-    pressure = np.asarray(exact.pressure(flow.pressure_positions, flow.pressure_time))
+    pressure = np.asarray(exact.pressure(flow.positions, flow.pressure_time))
     off = flow.pressure - flow.pressure.mean() - pressure + pressure.mean()
     return (
         float(np.linalg.norm(flow.velocities - velocity) / np.linalg.norm(velocity)),

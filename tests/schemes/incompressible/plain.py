@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import product
 from typing import Any, NamedTuple
 
@@ -181,23 +182,20 @@ class Plain:
         difference = around[pairs.source][None] - u[:, None]
         return np.asarray(self.problem.kinematic_viscosity * np.einsum("ie,iek->ik", weights, difference))
 
-    def predicted(self) -> Array:
-        """The acceleration by viscosity and body force."""
+    def accelerations(self) -> Iterator[Array]:
+        """That by viscosity and body force; of an implicit step again and again, from the last one's velocities."""
         force, here = np.array(self.problem.body_force), self.viscous(self.x, self.u)
-        if self.settings.viscous_step == "explicit":
-            return np.asarray(here + force)
-        share = 0.5 if self.settings.viscous_step == "crank_nicolson" else 1.0
-        found = here
-        for _ in range(200):  # contracts, because the time step is small
-            end = self.u + self.dt * ((1.0 - share) * here + share * found + force)
-            found = self.viscous(self.x, end)
-        return np.asarray((1.0 - share) * here + share * found + force)
+        yield np.asarray(here + force)
+        if self.settings.viscous_step != "explicit":  # by backward Euler, as the first steps of either kind are
+            for _ in range(40):  # contracts, because the time step is small
+                yield self.viscous(self.x, self.after) + force
 
     def crowding(self, pairs: Pairs) -> Array:
         """The concentration over that of a lattice, minus 1."""
         ticks = np.arange(-4, 5) * self.dx
         lattice = np.hypot(*np.meshgrid(ticks, ticks))
-        return np.asarray(pairs.w.sum(axis=1) / kernel(str(self.settings.kernel), lattice, self.radius)[0].sum() - 1.0)
+        found = np.asarray(pairs.w.sum(axis=1) / kernel(str(self.settings.kernel), lattice, self.radius)[0].sum() - 1.0)
+        return found - found.mean() if self.on else found  # rows of particles on walls have none
 
     def pressure(self, x: Array, pairs: Pairs, source: Array, accelerations: Array) -> Array:
         """Of the fluid and the walls."""
@@ -263,30 +261,14 @@ class Plain:
         return np.asarray(self.dt * drift * np.minimum(1.0, 0.5 * speed / np.maximum(size, 1e-300)))
 
     def step(self) -> None:
-        settings, dt, density, u = self.settings, self.dt, self.problem.density, self.u
-        count, walled = len(u), len(self.wall.positions) > 0
+        settings, dt, u = self.settings, self.dt, self.u
+        walled = len(self.wall.positions) > 0
         midpoint = settings.projection == "midpoint"
         if midpoint:
             self.x = self.x + 0.5 * dt * u
-        acceleration = self.predicted()
-        predicted = u + dt * acceleration
-        x = self.x + dt * predicted if settings.projection == "intermediate" else self.x
-        pairs = self.around(x)
-        even = np.concatenate((acceleration, self.mirrored(x) @ acceleration)) if walled else acceleration
-        seen = self.slipping if self.settings.slip else self.continued  # by the divergence
-        around = (seen(x, u) if walled else u) + dt * even
-        slopes = self.differences(pairs, around)
-        divergence = np.einsum("ikk->i", slopes)
-        if midpoint:  # of the velocities where particles are half a step later
-            divergence = divergence - 0.5 * dt * np.einsum("iab,iba->i", slopes, slopes)
-        source = (1.0 - self.alpha) * density / dt * divergence - self.alpha * density / dt**2 * self.crowding(pairs)
-        pressures = self.pressure(x, pairs, source, even[count:])
-        if settings.gradient == "symmetric":
-            both = pressures[pairs.source][None] + pressures[:count, None]
-            slope = self.volume * np.einsum("ie,iea->ia", both * pairs.g, pairs.d)
-        else:
-            slope = self.differences(pairs, pressures[:, None])[:, 0]
-        after = predicted - dt / density * slope
+        for acceleration in self.accelerations():
+            self.project(acceleration)
+        after, x, pairs = self.after, self.projected_at, self.around(self.projected_at)
         x_after = self.x + 0.5 * dt * (after if midpoint else u + after)
         if settings.shifting != "none":
             shift = self.shift(pairs)
@@ -294,3 +276,32 @@ class Plain:
             after = after + np.einsum("ika,ia->ik", slopes, shift)
             x_after = x_after + shift
         self.x, self.u = x_after, after
+
+    def project(self, acceleration: Array) -> None:
+        """Free velocities of divergence, under the acceleration of a step."""
+        settings, dt, density, u = self.settings, self.dt, self.problem.density, self.u
+        count, walled = len(u), len(self.wall.positions) > 0
+        implicit = settings.viscous_step != "explicit"
+        predicted = u + dt * acceleration
+        x = self.x + dt * predicted if settings.projection == "intermediate" and not implicit else self.x
+        self.projected_at = x
+        pairs = self.around(x)
+        even = np.concatenate((acceleration, self.mirrored(x) @ acceleration)) if walled else acceleration
+        seen = self.slipping if self.settings.slip else self.continued  # by the divergence
+        around = (seen(x, u) if walled else u) + dt * even
+        slopes = self.differences(pairs, around)
+        divergence = np.einsum("ikk->i", slopes)
+        if implicit:
+            slopes = self.differences(pairs, seen(x, u) if walled else u)
+        if settings.projection == "midpoint":  # of the velocities where particles are half a step later
+            divergence = divergence - 0.5 * dt * np.einsum("iab,iba->i", slopes, slopes)
+        source = (
+            1.0 if implicit else 1.0 - self.alpha
+        ) * density / dt * divergence - self.alpha * density / dt**2 * self.crowding(pairs)
+        pressures = self.pressure(x, pairs, source, even[count:])
+        if settings.gradient == "symmetric":
+            both = pressures[pairs.source][None] + pressures[:count, None]
+            slope = self.volume * np.einsum("ie,iea->ia", both * pairs.g, pairs.d)
+        else:
+            slope = self.differences(pairs, pressures[:, None])[:, 0]
+        self.after = predicted - dt / density * slope

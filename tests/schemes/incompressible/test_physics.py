@@ -184,7 +184,7 @@ def test_pressure_of_vortices() -> None:
     run = case("taylor-green", resolution=32, until=0.1).run()
     flow = run.flow
     assert isinstance(flow, IncompressibleFlow)
-    exact = np.asarray(TaylorGreen(0.01).pressure(flow.pressure_positions, flow.pressure_time))
+    exact = np.asarray(TaylorGreen(0.01).pressure(flow.positions, flow.pressure_time))
     error = flow.pressure - flow.pressure.mean() - exact + exact.mean()
     assert np.linalg.norm(error) < 0.08 * np.linalg.norm(exact)
 

@@ -46,7 +46,7 @@ def test_fluid_goes_on_turning_with_its_walls(name: str) -> None:
 def test_pressure_holds_the_fluid_on_its_circles() -> None:
     done = flow(WHEEL, 32)
     done.advance(20)
-    x = done.pressure_positions - CENTRE
+    x = done.positions - CENTRE
     exact = 0.5 * SPIN**2 * (x**2).sum(axis=1)
     error = done.pressure - done.pressure.mean() - exact + exact.mean()
     assert np.linalg.norm(error) < 0.05 * np.linalg.norm(exact - exact.mean())

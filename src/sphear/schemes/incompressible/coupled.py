@@ -20,7 +20,7 @@ from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
 
-START = 2  # steps that are two halves by backward Euler, which damp what a sudden start excites (Rannacher 1984)
+START = 3  # steps by backward Euler, which damps what a sudden start excites (Rannacher 1984): of second order still
 SWEEPS = 2  # that improve on the inverse of the velocity's equation
 DAMPING = 2.0  # share of the end of a step beyond a half, over the step in L / U: of second order still
 
@@ -79,7 +79,7 @@ class Coupled:
     def solve(
         self, sums: Sums, velocities: Array, force: Array, time_step: float, moved: float, steps: int
     ) -> tuple[Array, Array]:
-        """The velocities (N, d) at the end of a step, and its pressure (N + W,), of fluid and walls.
+        """The velocities (N, d) at the end of a step, and the gradient (N, d) of its pressure.
 
         Args:
             sums: at the places where forces act.
@@ -92,11 +92,7 @@ class Coupled:
         Raises:
             SphearError: the solution did not converge.
         """
-        if self.share < 1.0 and steps < START:
-            half = Step(velocities, force, 0.5 * time_step, 1.0, moved)
-            middle = Coupling(self, sums, half).solve()[0]
-            return Coupling(self, sums, half._replace(velocities=middle)).solve()
-        share = min(self.share + DAMPING * time_step / self.turnover, 1.0)
+        share = min(self.share + DAMPING * time_step / self.turnover, 1.0) if steps >= START else 1.0
         return Coupling(self, sums, Step(velocities, force, time_step, share, moved)).solve()
 
 
@@ -134,7 +130,7 @@ class Coupling:
             self.source = self.source + step.moved * np.einsum("nab,nba->n", slopes, slopes)
 
     def solve(self) -> tuple[Array, Array]:
-        """Velocities (N, d) and pressures (N + W,); the pressure is kept.
+        """Velocities (N, d) and the gradient (N, d) of the pressure, which is kept.
 
         Raises:
             SphearError: the solution did not converge.
@@ -163,7 +159,8 @@ class Coupling:
         pressures.iterations, pressures.residual = run.iterations, residual / scale
         pressures.keep(self.equation, p)
         jump = self._jump(self._even(w))
-        return w, pressures.with_walls(self.sums, pressures.fluid, pressures.on_walls, jump)
+        values = pressures.with_walls(self.sums, pressures.fluid, pressures.on_walls, jump)
+        return w, self.sums.pressure_slopes(values, self.sums.pressure_gradient(values))
 
     def _packed(self, fluid: Array, on_walls: Array) -> Array:
         return np.concatenate((fluid[self.equation.order], on_walls))

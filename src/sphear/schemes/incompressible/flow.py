@@ -19,6 +19,7 @@ from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
+from sphear.schemes.incompressible.places import in_box
 from sphear.schemes.incompressible.pressures import Pressures
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.shifting import LEAST_STRETCHING, drift, stretching, unevenness
@@ -57,7 +58,8 @@ class IncompressibleFlow:
         time: reached.
         steps: made.
         positions, velocities: (N, d).
-        pressure: (N,), at the `pressure_time` and the `pressure_positions`, (N, d).
+        pressure: (N,), at the positions; of the `pressure_time`.
+        pressure_positions, pressure_slopes: (N, d), where it was found, and its gradient there.
         pressures: it, and how it was solved for.
         discretisation: how fields become sums.
         limits: the time steps that the CFL, viscous, body-force and shifting conditions allow.
@@ -87,10 +89,10 @@ class IncompressibleFlow:
         self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.time_step, self.term.radial)
         self.drift = drift(settings.shifting, self.kernel, settings.shifting_strength, problem.speed, problem.spacing)
         self.uneven = unevenness(self.count, problem.positions.shape[1], problem.spacing, settings.seed)
-        self.x = np.ascontiguousarray(problem.positions, np.float64).copy()
+        self.x = in_box(np.ascontiguousarray(problem.positions, np.float64), self.discretisation.domain).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
         self.energy_budget = EnergyBudget(problem.density * problem.spacing ** self.x.shape[1], self.u, problem.speed)
-        self.pressure_positions = self.x
+        self.pressure_positions, self.pressure_slopes = self.x, np.zeros_like(self.u)
         self._distance: Array | None = None  # of the particles from walls, where it is known already
 
     @property
@@ -105,13 +107,19 @@ class IncompressibleFlow:
 
     @property
     def pressure(self) -> Array:
-        """(N,), at the `pressure_time` and the `pressure_positions`."""
-        return self.pressures.fluid
+        """(N,), at the positions, along its gradient from where it was found; of the `pressure_time`."""
+        moved, domain = self.x - self.pressure_positions, self.discretisation.domain
+        moved = moved if domain is None else domain.shortest(moved)
+        result: Array = self.pressures.fluid + (self.pressure_slopes * moved).sum(axis=1)
+        return result
 
     @property
     def pressure_time(self) -> float:
         """Of which time the pressure is: `projection=midpoint` finds it in the middle of a step."""
-        return self.time - (1.0 - PRESSURE_AT[self.settings.projection]) * self.time_step if self.steps else 0.0
+        projection = self.settings.projection
+        if self.coupled is not None and projection == "intermediate":  # places that only a prediction knows
+            projection = "start"
+        return self.time - (1.0 - PRESSURE_AT[projection]) * self.time_step if self.steps else 0.0
 
     @property
     def density(self) -> Array:
@@ -172,18 +180,19 @@ class IncompressibleFlow:
         return self.discretisation.viscous.implicit(share, self.time_step, u, force, sums.viscous)
 
     def _projected(self, sums: Sums, u: Array, force: Array, moved: float) -> tuple[Sums, Array, Array, Array]:
-        """The sums where the pressure acts, velocities (N, d) after it, it (N + W,), and the viscous acceleration."""
+        """The sums where pressure acts, velocities (N, d) after it, its slopes, and the viscous acceleration."""
         step, x = self.time_step, sums.places.positions[: self.count]
         acceleration = self._predicted(sums, u, force)
         predicted = u + step * acceleration
         if self.settings.projection == "intermediate":
             self.guard.check_speed(self.time, x, predicted)
-            sums = self.discretisation.at(x + step * predicted)
+            sums = self.discretisation.at(in_box(x + step * predicted, self.discretisation.domain))
         even = sums.even(acceleration)
         before = sums.divergent(u, -moved) + step * even
         pressures = self.pressures.solve(sums, before, even[self.count :], step, moved)
-        after = predicted - step / self.problem.density * sums.pressure_gradient(pressures)
-        return sums, after, pressures, acceleration - force
+        gradient = sums.pressure_gradient(pressures)
+        after = predicted - step / self.problem.density * gradient
+        return sums, after, sums.pressure_slopes(pressures, gradient), acceleration - force
 
     def _step(self) -> None:
         step, u = self.time_step, self.u.copy()  # before dry walls velocities change
@@ -193,14 +202,15 @@ class IncompressibleFlow:
             x = x + moved * u
             self.guard.check_speed(self.time, self.x, u)
             distance = self.guard.put_back(self.time, x, u)
+            x = in_box(x, self.discretisation.domain)
         sums = self.discretisation.at(x, distance)
         force = self._force(sums, self.time + moved)
         if self.coupled is not None:
-            after, pressures = self.coupled.solve(sums, u, force, step, moved, self.steps)
-            viscous = (after - u) / step - force + sums.pressure_gradient(pressures) / self.problem.density
+            after, slopes = self.coupled.solve(sums, u, force, step, moved, self.steps)
+            viscous = (after - u) / step - force + slopes / self.problem.density
         else:
-            sums, after, pressures, viscous = self._projected(sums, u, force, moved)
-        self.pressure_positions = sums.places.positions[: self.count]
+            sums, after, slopes, viscous = self._projected(sums, u, force, moved)
+        self.pressure_positions, self.pressure_slopes = sums.places.positions[: self.count], slopes
         x = x + (0.5 * step - moved) * u + 0.5 * step * after
         if self.drift is not None:
             # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
@@ -218,6 +228,7 @@ class IncompressibleFlow:
         self.steps += 1
         self.guard.check_speed(self.time, self.x, self.u)
         self._distance = self.guard.put_back(self.time, self.x, self.u)
+        self.x = in_box(self.x, self.discretisation.domain)
 
     def __repr__(self) -> str:
         """How many particles, by which term, and where they stand."""
@@ -259,6 +270,7 @@ class IncompressibleFlow:
             "wall_pressure": self.pressures.on_walls,
             "pressure_x": self.pressure_positions,
             "energy": self.energy_budget.state(),
+            "pressure_slopes": self.pressure_slopes,
         }
 
     def restore(self, state: dict[str, Array]) -> None:
@@ -269,7 +281,10 @@ class IncompressibleFlow:
         """
         check_state(state, self._arrays())
         self.x, self.u = np.array(state["x"]), np.array(state["v"])
-        self.pressure_positions = np.array(state["pressure_x"])
+        self.pressure_positions, self.pressure_slopes = (
+            np.array(state["pressure_x"]),
+            np.array(state["pressure_slopes"]),
+        )
         self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])
         self.energy_budget.restore(state["energy"])
         self.time, self.steps, self._distance = float(state["clock"][0]), int(state["clock"][1]), None

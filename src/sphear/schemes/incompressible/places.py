@@ -19,6 +19,20 @@ Array = np.ndarray[Any, Any]
 Prepared = tuple[tuple[Shape, ...], list[Array]]
 
 
+def in_box(positions: Array, domain: Domain | None) -> Array:
+    """Positions (N, d), those beyond a periodic side moved by whole periods into the box, the others as they are."""
+    if domain is None:
+        return positions
+    low, high, periodic = np.array(domain.lower), np.array(domain.upper), np.array(domain.periodic)
+    beyond = np.flatnonzero((periodic & ((positions < low) | (positions >= high))).any(axis=1))
+    if not len(beyond):
+        return positions
+    inside = positions.copy()
+    moved = domain.wrapped(positions[beyond])
+    inside[beyond] = np.where(periodic & (moved >= high), low, moved)  # a little below the box is, rounded, at its end
+    return inside
+
+
 class Places:
     """Particles that sums are made for, and others that are only their neighbours.
 

@@ -140,6 +140,10 @@ class Sums:
             return result
         return np.where(found.near[:, None], surface_gradient(self.places, found, pressures), result)
 
+    def pressure_slopes(self, pressures: Array, gradient: Array) -> Array:
+        """(N, d), the gradient of pressures (N + W,), of which the symmetric form is none: it is exact for no field."""
+        return self.slopes(pressures[:, None]) if self.how.symmetric else gradient
+
     def viscous(self, u: Array) -> Array:
         """(N, d), the viscous acceleration of velocities (N, d)."""
         how = self.how
