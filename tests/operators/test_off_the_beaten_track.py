@@ -77,7 +77,8 @@ def test_masks_are_refused_wherever_arrays_come_in() -> None:
 
 def test_what_loses_nothing_is_taken() -> None:
     expected = laplacian(X, F, spacing=DX)
-    for values in (np.ma.MaskedArray(F), Series(F, np.arange(144)), [Decimal(float(x)) for x in F]):
+    given: list[Any] = [np.ma.MaskedArray(F), Series(F, np.arange(144)), [Decimal(float(x)) for x in F]]
+    for values in given:
         np.testing.assert_array_equal(laplacian(X, values, spacing=DX), expected)
 
 

@@ -1,7 +1,6 @@
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,6 @@ from hypothesis import strategies as st
 
 from sphear.errors import SphearError
 from sphear.results import Column, OutputFolder, Table
-from sphear.results.files import STALE
 
 
 def test_a_folder_is_made_with_its_first_file(tmp_path: Path) -> None:
@@ -39,15 +37,6 @@ def test_a_file_written_again_is_replaced(tmp_path: Path) -> None:
     folder.write_text("a.txt", "a longer first version")
     folder.write_text("a.txt", "second")
     assert (tmp_path / "a.txt").read_text() == "second"
-
-
-def test_what_a_killed_process_left_of_a_file_is_removed_after_an_hour(tmp_path: Path) -> None:
-    for name, age in ((".a[1].txt.1.partial", 2), (".a[1].txt.2.partial", 0), (".b.txt.1.partial", 2), ("a", 2)):
-        (tmp_path / name).touch()
-        os.utime(tmp_path / name, (time.time() - age * STALE,) * 2)
-    OutputFolder(tmp_path).write_text("a[1].txt", "a")
-    left = [".a[1].txt.2.partial", ".b.txt.1.partial", "a", "a[1].txt"]
-    assert sorted(path.name for path in tmp_path.iterdir()) == left
 
 
 def test_files_are_readable_by_whom_the_user_lets_read(tmp_path: Path) -> None:

@@ -42,7 +42,7 @@ class Watch:
         self.scale = 0.5 * self.mass * len(problem.positions) * problem.speed**2
 
     def _kinetic(self, velocities: Array) -> float:
-        return 0.5 * self.mass * float((velocities**2).sum())
+        return float(0.5 * self.mass * (velocities**2).sum())
 
     def _heights(self, problem: Problem) -> float | None:
         """sum_i f . x_i at the start; None where particles go round a period along the force."""
@@ -79,14 +79,14 @@ class Watch:
         """Kinetic energy, that of sound and that in a constant force, over what they were at the start."""
         assert self.heights is not None
         given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)
-        return self._kinetic(flow.velocities) + self._sound(flow) - self.start - given
+        return float(self._kinetic(flow.velocities) + self._sound(flow) - self.start - given)
 
     def _sound(self, flow: FlowInTime) -> float:
         """sum_i m p^2 / (2 rho^2 c^2), of pressures beside their mean."""
         speed = getattr(flow, "sound_speed", math.inf)
         if not math.isfinite(speed):
             return 0.0
-        return 0.5 * self.mass * float(np.var(flow.pressure)) * flow.count / (flow.problem.density * speed) ** 2
+        return float(0.5 * self.mass * np.var(flow.pressure) * flow.count / (flow.problem.density * speed) ** 2)
 
 
 def _largest(velocities: Array) -> float:

@@ -271,8 +271,10 @@ class Plain:
         after, x, pairs = self.after, self.projected_at, self.around(self.projected_at)
         x_after = self.x + 0.5 * dt * (after if midpoint else u + after)
         if settings.shifting != "none":
-            shift = self.shift(pairs)
             slopes = self.differences(pairs, self.slipping(x, after) if walled else after)
+            stretching = np.sqrt(np.maximum(0.5 * np.einsum("iab,iba->i", slopes, slopes), 0.0))
+            uneven = np.random.default_rng(settings.seed).uniform(-1.0, 1.0, x.shape)
+            shift = self.shift(pairs) + 0.02 * self.dx * dt * stretching[:, None] * uneven
             after = after + np.einsum("ika,ia->ik", slopes, shift)
             x_after = x_after + shift
         self.x, self.u = x_after, after
