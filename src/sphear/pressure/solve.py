@@ -73,7 +73,7 @@ def solve(
         tolerance: ||b - A p|| / ||b|| to be reached, without b's imbalance.
         most: iterations of the first attempt.
         floor: a length ||b|| below which b, without its imbalance, is the rounding of what it was made from: it is
-            taken for nothing, and no residual below it is asked for.
+            taken for nothing.
 
     Raises:
         SphearError: the right-hand side or the guess is not (n,) finite numbers.
@@ -96,7 +96,6 @@ def solve(
     balanced, guess = balanced / length, None if guess is None else guess / length
     if system.singular:  # where little is left of a large constant, so is rounding of it: no product has that
         balanced -= balanced.mean()
-    tolerance = max(tolerance, floor / length)
     attempt = _attempt(system, balanced, guess, first, tolerance, most, robust=False)
     (residual, mean), retried = _residual(system, balanced, attempt.values), False
     iterations, used = attempt.iterations, first
