@@ -22,8 +22,9 @@ from typing import Any
 
 KEPT = Path(__file__).with_suffix(".json")
 RESOLUTIONS = (13, 17, 19, 23, 29, 37, 43, 53)
-REYNOLDS = (1e-3, 1e-1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5)
-STEPS = {"explicit": 6000, "incompressible": 400}
+REYNOLDS = (1e-3, 1.0, 100.0, 1e3, 1e4, 1e5)
+STEPS = {"explicit": 4000, "incompressible": 250}
+OUTPUTS = 12  # of a run, at which it is looked at
 UNTIL = {
     "poiseuille": 5.0,
     "couette": 5.0,
@@ -72,9 +73,11 @@ def run(kind: str, resolution: int, reynolds: float) -> dict[str, Any]:
     import numpy as np
 
     import sphear
+    from sphear.cases.flow import run as runs
     from sphear.errors import SphearError
     from sphear.schemes.watch import unresolved
 
+    runs.OUTPUTS = OUTPUTS
     case, changes = KINDS[kind]
     began = time.monotonic()
     try:
