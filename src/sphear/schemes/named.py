@@ -34,4 +34,6 @@ def named(settings: Chosen) -> Chosen:
         SphearError: something has no such name.
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
+    if getattr(settings, "scheme", None) == "incompressible":  # which has its own, without aliases
+        given.pop("wall_velocity")
     return settings.model_copy(update={key: REGISTRIES[key].name(value) for key, value in given.items()})
