@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from sphear.errors import SphearError
+from sphear.schemes.incompressible.flow import IncompressibleFlow
 from sphear.schemes.incompressible.pressure_level import Level, levelled
-from sphear.schemes.incompressible.settings import IncompressibleSettings
 from tests.schemes.incompressible.flows import case, in_a_tank
 
 
@@ -33,7 +35,7 @@ def test_sfdi_gradients_of_linear_pressures_are_exact() -> None:
 
 
 def test_a_raised_level_pushes_particles_apart_by_the_symmetric_gradient_only() -> None:
-    symmetric = {"gradient": "symmetric", "gradient_correction": "none"}
+    symmetric: dict[str, Any] = {"gradient": "symmetric", "gradient_correction": "none"}
     pressures, gradients = None, {}
     for level in ("free", "least"):
         flow = in_a_tank(disorder=0.2, pressure_level=level, **symmetric)
@@ -51,7 +53,7 @@ def test_a_raised_level_pushes_particles_apart_by_the_symmetric_gradient_only() 
 @pytest.mark.parametrize("level", ["corner", "least"])
 def test_a_level_that_changes_nothing_is_refused(level: str) -> None:
     with pytest.raises(SphearError, match=f"pressure_level={level} changes nothing with gradient=differences"):
-        IncompressibleSettings.model_validate({"pressure_level": level})
+        case("cavity", pressure_level=level, resolution=10)
 
 
 def test_a_free_surface_has_its_own_level() -> None:
@@ -61,7 +63,9 @@ def test_a_free_surface_has_its_own_level() -> None:
 
 def test_dummies_move_with_their_wall() -> None:
     flow = case("cavity", resolution=10, wall_velocity="wall").flow
+    assert isinstance(flow, IncompressibleFlow)
     walls = flow.discretisation.walls
+    assert walls is not None
     behind = flow.discretisation.at(flow.positions).continued(np.ones_like(flow.positions))[flow.count :]
     np.testing.assert_array_equal(behind, walls.velocities)
     assert set(np.unique(behind[:, 0])) == {0.0, 1.0}
