@@ -66,7 +66,7 @@ def test_the_verdict_is_of_readings_within_the_text_at_both_sizes() -> None:
     said, agrees = settings.finding(rows)
     assert agrees == "no"
     assert "as stated it fails at t = 0.1 with 40" in said
-    beyond = [*rows, *(a_row("least zero, alpha 0.1", size, UNTIL, UNTIL, 0.01) for size in (40, 100))]
+    beyond = [*rows, *(a_row("least zero + alpha 0.1", size, UNTIL, UNTIL, 0.01) for size in (40, 100))]
     assert settings.finding(beyond)[1] == "partly"
     within = [*rows, *(a_row("negative cut", size, UNTIL, UNTIL, 0.01) for size in (40, 100))]
     assert settings.finding(within)[1] == "yes"
@@ -104,7 +104,7 @@ def test_under_positive_pressure_a_lattice_of_the_preset_is_stable() -> None:
 
 
 def test_a_run_goes_on_where_a_shorter_one_ended(own_store: Path) -> None:
-    short, longer = (Tried("least zero, alpha 0.1", 10, until).run() for until in (0.02, 0.03))
+    short, longer = (Tried("least zero + alpha 0.1", 10, until).run() for until in (0.02, 0.03))
     first = compute_reading("cavity", short.given)
     assert (first["end"], first["history"][-1]["disorder"] > 0) == ("time", True)
     whole = compute_reading("cavity", longer.given)

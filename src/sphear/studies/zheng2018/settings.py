@@ -55,7 +55,7 @@ def finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
         _screened(group) for size in dict.fromkeys(row["resolution"] for row in rows) if (group := _short(rows, size))
     ]
     long = [row for row in rows if row["until"] == UNTIL]
-    parts.append("; ".join(_long(row) for row in long))
+    parts += [_long(row) for row in long]
     if lacking := _lacking(long):
         parts.append(f"not computed to t = {UNTIL:g}: {lacking}" if long else f"none was computed to t = {UNTIL:g}")
     if grown := [row for row in rows if row["growth"] and row["reading"] in COMPARED and row["until"] < UNTIL]:

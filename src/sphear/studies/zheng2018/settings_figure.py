@@ -11,7 +11,7 @@ from sphear.studies.zheng2018.settings_combinations import BY_NAME
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-DRAWN = ("stated", "h = 1.0 dx", "least zero", "sfdi", "least zero, slipping", "least zero, alpha 0.1")
+DRAWN = ("stated", "differences", "least zero", "negative cut", "least zero + slipping", "least zero + alpha 0.1")
 COLOURS = ("#333333", "#d55e00", "#0072b2", "#009e73", "#aa4499", "#e69f00")
 DASHES: tuple[Literal["-", "--", ":"], ...] = ("-", "--", ":")  # coarse to fine
 
@@ -35,9 +35,10 @@ def figure(data: dict[str, Any]) -> Figure:
                 continue
             colour = COLOURS[DRAWN.index(row["reading"])]
             dashes = DASHES[sizes.index(row["resolution"]) % len(DASHES)]
-            growing.plot(row["curve"]["time"], row["curve"]["disorder"], dashes, color=colour, linewidth=1.2)
+            way = [time * row["resolution"] for time in row["curve"]["time"]]
+            growing.plot(way, row["curve"]["disorder"], dashes, color=colour, linewidth=1.2)
             handles[f"{row['reading']}, {row['resolution']}"] = Line2D([], [], color=colour, linestyle=dashes)
-        growing.set(xlabel="t", ylabel="disorder: rms of dx |sum V grad W|", yscale="log", title="Disorder")
+        growing.set(xlabel="the lid's way / dx", xscale="log", yscale="log", title="Disorder: rms of dx |sum V grad W|")
         names = list(dict.fromkeys(row["reading"] for row in rows))
         for row in rows:
             place = len(names) - 1 - names.index(row["reading"])
