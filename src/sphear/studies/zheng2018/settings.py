@@ -71,8 +71,8 @@ def finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
 
 
 def _rate(row: Row) -> str:
-    bound = f" where eq. 3 allows {row['predicted']:.2g} under the least pressure" if row["predicted"] else ""
-    return f"at {row['growth']:.2g} a unit of time ({row['reading']}, {row['resolution']} a side){bound}"
+    bound = f" where eq. 3 allows {row['predicted']:.0f} under the least pressure" if row["predicted"] else ""
+    return f"at {row['growth']:.0f} a unit of time ({row['reading']}, {row['resolution']} a side){bound}"
 
 
 def _end(row: Row) -> str:
@@ -90,7 +90,7 @@ def _screened(rows: Sequence[Row]) -> str:
     when = f", the others fail at t = {min(times):.2g} to {max(times):.2g}" if times else ""
     who = f": {listed(held)}" if held else ""
     until = f"t = {rows[0]['until']:g} at {rows[0]['resolution']} a side"
-    return f"of {len(rows)} readings {len(held)} hold to {until}{who}{when}"
+    return f"of {len(rows)} readings {len(held)} hold{'s' * (len(held) == 1)} to {until}{who}{when}"
 
 
 def _long(row: Row) -> str:
