@@ -35,6 +35,8 @@ def named(settings: Chosen) -> Chosen:
         SphearError: something has no such name.
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
+    if getattr(settings, "scheme", None) == "incompressible":  # which has its own, without aliases
+        given.pop("wall_velocity")
     names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
     return settings.model_copy(update=names)
 

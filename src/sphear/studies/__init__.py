@@ -38,6 +38,7 @@ ITEMS: dict[str, dict[str, str]] = {
         "figure-12": "magnitude of the velocity in the cavity with a cylinder",
         "figure-13": "profiles of the cavity with a cylinder, with each viscous term",
         "figure-14": "error of the least u in the cavity with a cylinder against the number of particles",
+        "settings": "readings of the settings that the paper states and does not, by how long they hold",
     },
     "basa2009": {
         "figure-1": "second derivatives of the cubic spline in 2-D",

@@ -55,9 +55,13 @@ def check_surface_settings(settings: IncompressibleSettings, laplacian: Laplacia
     """Refuse what does not go with a free surface.
 
     Raises:
-        SphearError: a wall condition that needs fluid before every wall, or cannot carry weight; a Laplacian that is
-            corrected by neighbours on all sides.
+        SphearError: a level of the pressure is chosen; a wall condition needs fluid before every wall, or cannot carry
+            weight; a Laplacian is corrected by neighbours on all sides.
     """
+    if settings.pressure_level != "free":
+        raise SphearError(
+            f"a free surface fixes the level of the pressure: take pressure_level=free, not {settings.pressure_level}"
+        )
     if settings.neumann in ("sfdi", "natural"):
         why = "needs fluid before every wall" if settings.neumann == "sfdi" else "carries no weight on walls"
         raise SphearError(f"neumann={settings.neumann} {why}: with a free surface take mirror_points or adami")

@@ -22,9 +22,13 @@ class IncompressibleSettings(SchemeSettings):
         correction: of the viscous term, a name or an object; one with a correction of its own takes no other.
         kernel: name of a kernel, or an object with its own h.
         h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
-        gradient: of the pressure, from "differences" p_j - p_i or "symmetric", p_j + p_i (eq. 3), which conserves
-            momentum.
-        gradient_correction: name of the correction, or an object, of gradient and divergence.
+        gradient: of the pressure, from "differences" p_j - p_i; "symmetric", p_j + p_i (eq. 3), which conserves
+            momentum; or by simplified finite difference interpolation of differences, "sfdi".
+        gradient_correction: name of the correction, or an object, of gradient and divergence; with "sfdi" of the
+            divergence.
+        pressure_level: of the pressure between walls, which its equation leaves open: "free"; zero in the lower left
+            "corner"; raised until the "least" is zero; or "cut", negative ones being zero. The symmetric gradient
+            pulls particles together where the pressure is negative.
         laplacian: the viscous term, a name or an object, whose Laplacian the pressure equation has; "morris" is eq. 14.
         alpha: share of the density in the source of the pressure equation (eq. 13); the rest is that of the
             divergence. Crowding decays in the time dt / alpha. None takes 10 U dt / L, which is the paper's 0.01 at its
@@ -35,7 +39,8 @@ class IncompressibleSettings(SchemeSettings):
         neumann: how walls enter the pressure equation: dummy particles with the pressure at their "mirror_points", or
             that of the fluid before them ("adami", 2012), both continued with the normal gradient; particles on the
             wall with equations of their own ("sfdi", as in the paper); or "natural", by leaving them out.
-        wall_velocity: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic".
+        wall_velocity: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic";
+            or not at all, "wall": dummy particles have that of the wall.
         slip: dummy particles have the fluid's own velocity along the wall in the divergence, instead of the continued.
         shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009).
         shifting_strength: factor of the shifting, 1 for that of its source; half of it keeps particles as regular and
@@ -56,13 +61,14 @@ class IncompressibleSettings(SchemeSettings):
     correction: CorrectionSetting = "none"
     kernel: KernelSetting = "wendland_c2"
     h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    gradient: Literal["differences", "symmetric"] = "differences"
+    gradient: Literal["differences", "symmetric", "sfdi"] = "differences"
     gradient_correction: CorrectionSetting = "renormalised"
+    pressure_level: Literal["free", "corner", "least", "cut"] = "free"
     laplacian: Term = "morris"
     alpha: float | None = Field(default=None, ge=0, le=1)
     projection: Literal["midpoint", "intermediate", "start"] = "midpoint"
     neumann: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
-    wall_velocity: Literal["mirror", "linear", "quadratic"] = "quadratic"
+    wall_velocity: Literal["mirror", "linear", "quadratic", "wall"] = "quadratic"
     slip: bool = True
     shifting: Literal["none", "lind", "xu"] = "lind"
     shifting_strength: float = Field(default=0.5, gt=0, allow_inf_nan=False)
@@ -79,6 +85,11 @@ class IncompressibleSettings(SchemeSettings):
             raise SphearError(
                 f"gradient=symmetric conserves momentum and gradient_correction={text(self.gradient_correction)} does"
                 " not: take gradient=differences or gradient_correction=none"
+            )
+        if self.gradient != "symmetric" and self.pressure_level in ("corner", "least"):
+            raise SphearError(
+                f"pressure_level={self.pressure_level} changes nothing with gradient={self.gradient}, which knows"
+                " differences only: take gradient=symmetric or pressure_level=free"
             )
         if self.solid != "none":
             from sphear.boundaries.shapes import written

@@ -11,10 +11,12 @@ from sphear.corrections import NoCorrection
 from sphear.interactions import Gradient
 from sphear.interactions.free_surface import Concentration
 from sphear.interactions.pressure_gradient import SymmetricGradient
+from sphear.interactions.sfdi_gradient import SfdiFit, SfdiGradient
 from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.incompressible.free_surface import surface, wetted
 from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.pressure_level import levelled
 from sphear.schemes.incompressible.region import region, walls_of
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.incompressible.surface_pressure import surface_gradient
@@ -48,7 +50,7 @@ class Discretisation:
         self, problem: Problem, settings: IncompressibleSettings, kernel: Kernel, viscous: Viscous, threads: int
     ) -> None:
         self.problem, self.kernel, self.viscous, self.threads = problem, kernel, viscous, threads
-        self.symmetric, self.slip = settings.gradient == "symmetric", settings.slip
+        self.pressure_form, self.pressure_level, self.slip = settings.gradient, settings.pressure_level, settings.slip
         self.correction = arguments.read_correction(settings.gradient_correction, None)
         self.count = len(problem.positions)
         self.region = region(problem)
@@ -128,14 +130,18 @@ class Sums:
 
     def pressure_gradient(self, pressures: Array) -> Array:
         """(N, d), of pressures (N + W,), in the chosen form; of differences, with the zero outside a surface."""
-        found = self.surface
+        found, kernel, form = self.surface, self.how.kernel, self.how.pressure_form
+        pressures = levelled(pressures, self.how.pressure_level, self.places.positions[: self.how.count])
         if found is not None:
             pressures = pressures.copy()
             fluid = pressures[: self.how.count]
             fluid[found.on & (fluid < 0.0)] = 0.0  # nothing pulls at a surface
-        if self.how.symmetric:
-            return self.places.sum(SymmetricGradient(self.how.kernel), None, values=pressures[:, None])
-        result = self.gradient(pressures[:, None])
+        if form == "symmetric":
+            return self.places.sum(SymmetricGradient(kernel), None, values=pressures[:, None])
+        if form == "sfdi":
+            result = self.places.sum(SfdiGradient(kernel), SfdiFit(kernel), values=pressures[:, None])
+        else:
+            result = self.gradient(pressures[:, None])
         if found is None:
             return result
         return np.where(found.near[:, None], surface_gradient(self.places, found, pressures), result)

@@ -43,7 +43,7 @@ class Walls:
         spacing: of the particles.
         kind: a kernel, of which the fits take their form.
         domain: with its periodic axes.
-        wall_velocity: how velocities are continued: "mirror", "linear" or "quadratic".
+        wall_velocity: how velocities are continued: "mirror", "linear", "quadratic" or not, "wall".
         adami: fields are those of the fluid around a dummy, not at its mirror point.
         free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
         accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
@@ -69,6 +69,7 @@ class Walls:
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
         self.mirrors = dummies.positions if adami else self.images
         self.least_pivot = THIN if free_surface else LEAST_PIVOT
+        self.wall_velocity = wall_velocity
         self.terms = TERMS.get(wall_velocity, 0)
         # a dummy that is a neighbour of the fluid has fluid around it
         self._mirror_kernel = kind if adami else type(kind)(MIRROR_REACH * spacing / kind.support)
@@ -120,7 +121,9 @@ class Walls:
 
     def continued(self, rows: WallRows, velocities: Array) -> Array:
         """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it."""
-        if rows.continued is None:
+        if self.wall_velocity == "wall":
+            behind = self.velocities
+        elif rows.continued is None:
             behind = 2.0 * self.velocities - rows.mirrored @ velocities
             behind[: self.on_wall] = self.velocities[: self.on_wall]
         else:

@@ -46,9 +46,10 @@ def _usual(case: str) -> dict[str, Any]:
 def merged(case: str, old: dict[str, Any] | None, new: dict[str, Any]) -> dict[str, Any]:
     """Kept numbers with new ones, which replace those of the same run, in the order in which runs are listed.
 
-    Settings are kept as what differs from the usual ones: where these have changed, the old numbers mean nothing.
+    Settings are kept as what differs from the usual ones: where these have changed, the old numbers mean nothing. A
+    setting that is new leaves them valid.
     """
-    sources = (old, new) if old and old["settings"] == new["settings"] else (new,)
+    sources = (old, new) if old and {**new["settings"], **old["settings"]} == new["settings"] else (new,)
     rows = {identity(row): row for source in sources for row in source["runs"]}
     order = [identity(each._asdict()) for each in wanted(case)]
     return {**new, "runs": [rows[each] for each in order if each in rows]}
