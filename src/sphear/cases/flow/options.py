@@ -49,6 +49,7 @@ class FlowOptions(TypedDict, total=False):
 
     # of the incompressible scheme
     gradient: str
+    pressure_level: str
     gradient_correction: str | Correction
     laplacian: str | ViscousTerm
     alpha: float | None

@@ -148,7 +148,7 @@ class Sums:
 
     def pressure_slopes(self, pressures: Array, gradient: Array) -> Array:
         """(N, d), the gradient of pressures (N + W,), of which the symmetric form is none: it is exact for no field."""
-        return self.slopes(pressures[:, None]) if self.how.symmetric else gradient
+        return self.slopes(pressures[:, None]) if self.how.pressure_form == "symmetric" else gradient
 
     def viscous(self, u: Array) -> Array:
         """(N, d), the viscous acceleration of velocities (N, d)."""
