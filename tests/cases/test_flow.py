@@ -80,7 +80,7 @@ def test_max_steps_ends_a_run() -> None:
 def test_as_dict_has_case_resolved_settings_metrics_and_performance() -> None:
     done = run("poiseuille", viscosity="E", correction="uncorrected", wall_velocity="linear", until=0.1)
     result = done.as_dict()
-    assert list(result) == ["case", "settings", "metrics", "versions", "performance"]
+    assert list(result) == ["case", "settings", "metrics", "warnings", "versions", "performance"]
     assert result["case"] == "poiseuille"
     settings = result["settings"]
     expected = {

@@ -21,6 +21,7 @@ from sphear import (
     viscous_acceleration,
 )
 from sphear.corrections.renormalised import safe_inverse
+from sphear.errors import SphearWarning
 from tests.particles import Array, all_pairs, jittered, lattice, summed
 
 KERNEL = WendlandC4(1.7)
@@ -260,6 +261,7 @@ def test_quality_says_how_unevenly_a_moment_treats_directions_not_how_large_it_i
 # six particles in a row have no gradient across it, and the last one has no neighbour at all
 ROW = np.column_stack((np.arange(6.0), np.full(6, 20.0)))
 LONELY = np.array([[30.0, 30.0]])
+TOLD = r"^1 of 56 particles have no neighbour within the support of 3.4, the first is particle 55 at \(30, 30\)$"
 
 
 def with_deficient() -> tuple[Array, Array]:
@@ -291,7 +293,8 @@ def test_terms_with_their_own_correction_refuse_by_their_own_name(viscosity: str
 @pytest.mark.parametrize("correction", ["none", "shepard"])
 def test_what_needs_no_neighbours_is_computed_without(correction: str) -> None:
     positions, deficient = with_deficient()
-    found = gradient(positions, positions, kernel=KERNEL, volumes=1.0, correction=correction)
+    with pytest.warns(SphearWarning, match=TOLD):
+        found = gradient(positions, positions, kernel=KERNEL, volumes=1.0, correction=correction)
     assert np.isfinite(found).all()
     assert not found[deficient[-1]].any()
 
@@ -303,7 +306,8 @@ def test_fallbacks_of_a_corrected_gradient(correction: str) -> None:
     arguments: Any = {"kernel": KERNEL, "volumes": 1.0}
     good = np.setdiff1d(np.arange(56), deficient)
     expected = gradient(positions[good], f[good], correction=correction, **arguments)
-    uncorrected = gradient(positions, f, **arguments)
+    with pytest.warns(SphearWarning, match=TOLD):
+        uncorrected = gradient(positions, f, **arguments)
     for fallback, substitute in (("nan", np.full((7, 2, 2), np.nan)), ("uncorrected", uncorrected[deficient])):
         found = gradient(positions, f, correction=correction, fallback=fallback, **arguments)  # type: ignore[arg-type]
         np.testing.assert_array_equal(found[deficient], substitute)
@@ -317,7 +321,8 @@ def test_fallbacks_of_a_term_with_its_own_correction(viscosity: str) -> None:
     arguments: Any = {"kernel": KERNEL, "volumes": 1.0}
     good = np.setdiff1d(np.arange(56), deficient)
     expected = laplacian(positions[good], f[good], viscosity=viscosity, **arguments)
-    morris = laplacian(positions, f, viscosity=Morris(), **arguments)
+    with pytest.warns(SphearWarning, match=TOLD):
+        morris = laplacian(positions, f, viscosity=Morris(), **arguments)
     for fallback, substitute in (("nan", np.full(7, np.nan)), ("uncorrected", morris[deficient])):
         found = laplacian(positions, f, viscosity=viscosity, fallback=fallback, **arguments)  # type: ignore[arg-type]
         np.testing.assert_array_equal(found[deficient], substitute)

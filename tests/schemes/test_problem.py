@@ -119,7 +119,7 @@ WALLED = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"))
 TWICE = np.concatenate((X[:-1], X[5:6]))
 WRONG_STARTS: dict[str, tuple[dict[str, Any], str]] = {
     "twice the spacing": ({"spacing": 0.25}, "64 of them there are 0.125 apart, not 0.25"),
-    "half the spacing": ({"spacing": 0.0625}, "64 of them there are 0.125 apart, not 0.0625"),
+    "half the spacing": ({"spacing": 0.0625}, "nearest neighbours at 0.125, not at 0.0625"),
     "beyond a wall": (
         {"box": WALLED, "positions": X + np.array([0.0, 0.5])},
         r"particle 32 at \(0.0625, 1.0625\) starts behind a wall",

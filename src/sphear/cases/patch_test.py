@@ -19,7 +19,9 @@ from sphear.engine.threads import thread_count
 from sphear.errors import SphearError, quoted
 from sphear.names import unknown
 from sphear.operators import Particles, arguments
+from sphear.operators.doubts import NoNeighboursError, tell_of_loneliness
 from sphear.operators.particles import needing_neighbours, too_few_neighbours
+from sphear.operators.scaling import TooLargeError
 from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, plain, text
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
@@ -157,15 +159,29 @@ class PatchTest(BaseModel):
             def compute(fallback: Literal["uncorrected", "nan"] | None) -> Array:
                 return particles.laplacian(values, term, correction, fallback)
 
+        def tell() -> None:
+            neighbours, positions = particles.neighbours, grid.positions[sample]
+            alone = np.flatnonzero(np.isin(sample, neighbours.alone))
+            tell_of_loneliness(positions, alone, neighbours.support, "h_over_dx", warn=self.fallback is None)
+
+        too_large = f"the sums over field {quoted(self.field)} are too large for {self.precision} numbers"
         # particles beyond the sample may lack neighbours; those of the sample may not, unless the user says so
-        result = compute("nan" if self.fallback is None else self.fallback)[sample]
+        try:
+            result = compute("nan" if self.fallback is None else self.fallback)[sample]
+        except TooLargeError:
+            raise SphearError(too_large) from None
+        except NoNeighboursError:
+            tell()
+            raise
         lacking = np.isnan(result).any(axis=1)
         needs_neighbours = term.own_correction or correction.name != "none"
-        if np.isinf(result).any() or (lacking.any() and not needs_neighbours):
-            raise SphearError(f"the sums over field {quoted(self.field)} are too large for {self.precision} numbers")
+        if lacking.any() and not needs_neighbours:
+            raise SphearError(too_large)
         if lacking.all() or (lacking.any() and self.fallback is None):
             what = needing_neighbours(term, correction)
             raise too_few_neighbours(
                 np.flatnonzero(lacking), grid.positions[sample], what, "at", "h_over_dx", self.fallback
             )
+        if not lacking.any():
+            tell()
         return result[~lacking], exact[~lacking]

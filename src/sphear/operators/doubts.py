@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import warnings
 from typing import Any
 
@@ -17,16 +18,30 @@ FACTOR = 5.0  # between the sum of the kernel over the volumes and one, for most
 LOOKED_AT = 100  # particles, evenly spaced
 
 
-def tell_of_loneliness(positions: Array, neighbours: Neighbours) -> None:
-    """Refuse particles none of which has a neighbour, whose sums are all zero; warn of some that have none."""
-    alone = neighbours.alone
-    if not len(alone) or len(positions) == 1:
+class NoNeighboursError(SphearError):
+    """None of the particles has a neighbour."""
+
+
+def tell_of_loneliness(
+    positions: Array, alone: Array, support: float, larger: str = "h, spacing or volumes", *, warn: bool = True
+) -> None:
+    """Refuse particles none of which has a neighbour, whose sums are all zero; warn of some that have none.
+
+    Args:
+        positions: of the particles, (N, d).
+        alone: those that have no neighbour.
+        support: of the kernel.
+        larger: the settings to enlarge.
+        warn: else some without neighbours are nothing new to the user.
+    """
+    if not len(alone):
         return
-    of = f"{len(alone)} of {len(positions)} particles have no neighbour within the support of {neighbours.support:.4g}"
+    of = f"{len(alone)} of {len(positions)} particles have no neighbour within the support of {support:.4g}"
     if len(alone) == len(positions):
-        raise SphearError(f"{of}: take a larger h, spacing or volumes")
+        raise NoNeighboursError(f"{of}: take a larger {larger}")
     place = ", ".join(f"{x:.6g}" for x in positions[alone[0]])
-    _warn(f"{of}, the first is particle {alone[0]} at ({place})")
+    if warn:
+        _warn(f"{of}, the first is particle {alone[0]} at ({place})")
 
 
 def tell_of_volumes(volumes: Array, kernel: Kernel, neighbours: Neighbours) -> None:
@@ -50,4 +65,8 @@ def tell_of_volumes(volumes: Array, kernel: Kernel, neighbours: Neighbours) -> N
 
 
 def _warn(sentence: str) -> None:
-    warnings.warn(sentence, SphearWarning, stacklevel=5)
+    """Warn at the line that called this package."""
+    level, frame = 1, inspect.currentframe()
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sphear":
+        level, frame = level + 1, frame.f_back
+    warnings.warn(sentence, SphearWarning, stacklevel=level)

@@ -47,7 +47,9 @@ def interpolated(
         if len(lacking) and fallback is None:
             what = f"correction {correction.name!r}"
             raise too_few_neighbours(lacking, points, what, f"is point {lacking[0]} at", "h", of="points")
+        particles.tell_of_loneliness(fallback)
     else:
+        particles.tell_of_loneliness(fallback)
         sums = _sums(Interpolation(units.kernel), units, field.values, particles.precision)
         one = sums[:, -1:]
         if not correction.zeroth_order:

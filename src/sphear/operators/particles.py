@@ -126,7 +126,6 @@ class Particles:
             dx = arguments.read_spacing(spacing, places, given, domain)
             chosen = arguments.read_kernel(kernel, h_over_dx, dx)
         neighbours = Neighbours(places, chosen.radius, domain, threads=threads, each_pair_once=each_pair_once)
-        tell_of_loneliness(places, neighbours)
         if given is not None:
             tell_of_volumes(given, chosen, neighbours)
         if given is None:
@@ -233,6 +232,14 @@ class Particles:
         lacking = outcome.deficient
         if len(lacking) and fallback is None:
             raise too_few_neighbours(lacking, self.positions, what, f"is particle {lacking[0]} at", "h")
-        if fallback == "nan":
+        if fallback == "nan" and len(lacking):
             outcome.values[lacking] = np.nan
+        else:
+            self.tell_of_loneliness(fallback)
         return outcome.values
+
+    def tell_of_loneliness(self, fallback: Fallback | None) -> None:
+        """Refuse particles none of which has a neighbour; warn of some that have none, unless a fallback is chosen."""
+        if len(self.positions) > 1:
+            alone = self.neighbours.alone
+            tell_of_loneliness(self.positions, alone, self.neighbours.support, warn=fallback is None)

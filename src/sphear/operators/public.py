@@ -63,7 +63,8 @@ def laplacian(
             cannot be computed.
 
     Warns:
-        SphearWarning: of particles without neighbours, and of volumes over which the kernel does not sum to one.
+        SphearWarning: of particles without neighbours where no fallback is chosen, and of volumes over which the
+            kernel does not sum to one.
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,

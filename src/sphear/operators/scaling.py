@@ -16,6 +16,10 @@ Array = np.ndarray[Any, Any]
 ORDINARY = 1e-30, 1e30  # smoothing lengths for whose powers float64 has room
 
 
+class TooLargeError(SphearError):
+    """Results too large for the precision of the sums."""
+
+
 def power_of_two(size: float) -> float:
     """The power of two next below a positive number; 1 for zero. Multiplying by it rounds nothing."""
     return float(np.ldexp(1.0, int(np.frexp(size)[1]) - 1)) if size > 0.0 else 1.0
@@ -97,8 +101,9 @@ def restored(result: Array, factor: Array | float) -> Array:
 def _held(wanted: Array, result: Array) -> Array:
     least = np.finfo(result.dtype).tiny
     largest = float(np.abs(wanted).max(initial=0.0, where=~np.isnan(wanted)))
-    if largest > np.finfo(result.dtype).max or 0.0 < largest < least:
-        raise SphearError(
+    too_large = largest > np.finfo(result.dtype).max
+    if too_large or 0.0 < largest < least:
+        raise (TooLargeError if too_large else SphearError)(
             f"the results, of up to {largest:.3g}, cannot be held in {result.dtype} numbers: take other units"
             f"{', or precision float64' if result.dtype == np.float32 else ''}"
         )

@@ -118,7 +118,9 @@ def _check_volume(problem: Problem) -> None:
     """Compare the volume of all particles with that of the region that they fill."""
     count, dimension = problem.positions.shape
     mean = (_volume(problem) / count) ** (1 / dimension)
-    if not 1 / STRETCHED <= mean / problem.spacing <= STRETCHED:
+    if mean > STRETCHED * problem.spacing and problem.shape is None:  # a drop in an empty box
+        _check_nearest(problem, tree_of(problem))
+    elif not 1 / STRETCHED <= mean / problem.spacing <= STRETCHED:
         raise SphearError(
             f"the spacing of a problem belongs to its particles, which fill the {_region(problem)}: {count} of them"
             f" there are {mean:.4g} apart, not {problem.spacing:.4g}"

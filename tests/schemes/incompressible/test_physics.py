@@ -34,7 +34,8 @@ def test_a_velocity_of_all_changes_nothing_else(changes: dict[str, Any]) -> None
     way = steps * still.time_step * velocity
     np.testing.assert_allclose(moving.velocities - velocity, still.velocities, rtol=0, atol=1e-11)
     np.testing.assert_allclose(moving.positions - way, still.positions, rtol=0, atol=1e-13)
-    np.testing.assert_allclose(moving.pressure, still.pressure, rtol=0, atol=1e-9)
+    # where they were found: half a step later particles are elsewhere in a field that moves on
+    np.testing.assert_allclose(moving.pressures.fluid, still.pressures.fluid, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["cavity", "taylor-green"])

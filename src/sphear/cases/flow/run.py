@@ -186,7 +186,7 @@ class FlowRun:
         found = self.watch.found(self.flow)
         if found is None:
             return ""
-        return f"failed: the flow failed by t = {self.flow.time:g}: {found}, as when particles do not resolve it"
+        return f"failed: the flow failed at t = {self.flow.time:g}: {found}, as when particles do not resolve it"
 
     @property
     def warnings(self) -> list[str]:
