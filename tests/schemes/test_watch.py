@@ -17,6 +17,7 @@ from tests.schemes.incompressible.flows import case
 
 PERIODIC = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "periodic"))
 LID = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), upper_velocity=(1.0, 0.0))
+CHANNEL = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"))
 TANK = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"))
 
 
@@ -79,3 +80,4 @@ def test_resolution_is_asked_for_by_its_number() -> None:
     (cell,) = unresolved(problem(PERIODIC, nu=1e-4))
     assert "cell Reynolds number U dx / nu is 1e+03" in cell
     assert unresolved(replace(problem(PERIODIC), kinematic_viscosity=0.0)) == []
+    assert unresolved(problem(CHANNEL, nu=1e-4)) == []
