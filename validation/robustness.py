@@ -122,9 +122,15 @@ def rounded(value: Any) -> Any:
     return value
 
 
+def known() -> dict[str, Any]:
+    """What is kept, by kind, resolution and Reynolds number."""
+    found: dict[str, Any] = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    return found
+
+
 def compute(part: str, workers: int) -> None:
     """Compute what is not kept, and keep each run as it ends."""
-    kept = json.loads(KEPT.read_text()) if KEPT.exists() else {}
+    kept = known()
     missing = [one for one in wanted(part) if f"{one[0]} {one[1]} {one[2]:g}" not in kept]
     print(f"{len(missing)} runs to be made, {len(kept)} kept")
     saved = time.monotonic()
@@ -149,7 +155,7 @@ def keep(kept: dict[str, Any]) -> None:
 
 def table(part: str) -> str:
     """How many runs of each kind failed, at which cell Reynolds numbers, and what the others made of their energy."""
-    kept = json.loads(KEPT.read_text())
+    kept = known()
     rows = [
         "| kind | runs | failed | least cell Re of a failure | largest created | untold failures |",
         "|---|---|---|---|---|---|",
