@@ -18,7 +18,8 @@ from sphear.studies import ITEMS, items, reproduce
 from sphear.studies.result import StudyResult
 from sphear.studies.zheng2018.patch import settings
 
-SHORT = [item for item in ITEMS["zheng2018"] if item.startswith("table") or int(item.partition("-")[2]) < 7]
+FLOWS = [f"figure-{number}" for number in range(7, 15)]
+SHORT = [item for item in ITEMS["zheng2018"] if item not in (*FLOWS, "settings")]
 FIGURES = [item for item in SHORT if item.startswith("figure")]
 DIVERGING = ["morris", "gotoh", "oger"]
 
