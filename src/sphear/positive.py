@@ -14,9 +14,3 @@ def is_positive(value: Any) -> bool:
         return 0.0 < float(value) < inf
     except (TypeError, ValueError, OverflowError):
         return False
-
-
-def shown(value: Any) -> str:
-    """A value in at most 60 letters."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from sphear.algebra import Matrix, Scalar, Vector, combine, identity, outer, scale, sqrt
-from sphear.errors import SphearError
-from sphear.positive import is_positive, shown
+from sphear.errors import SphearError, quoted
+from sphear.positive import is_positive
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Kernel:
 
     def __post_init__(self) -> None:
         if not is_positive(self.h):
-            raise SphearError(f"the smoothing length h must be positive, not {shown(self.h)}")
+            raise SphearError(f"the smoothing length h must be positive, not {quoted(self.h)}")
 
     def shape(self, q: Scalar, dimension: int) -> Scalar:
         """w(q)."""

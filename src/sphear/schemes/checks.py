@@ -44,7 +44,7 @@ def check_places(problem: Problem) -> None:
     if len(pairs):
         first, second = min(map(tuple, pairs.tolist()))
         raise SphearError(
-            f"particles {first} and {second} are both at ({_text(problem.positions[first])}) at the start"
+            f"particles {first} and {second} are both at ({place_text(problem.positions[first])}) at the start"
         )
 
 
@@ -70,8 +70,8 @@ def check_connected(problem: Problem, reach: float) -> None:
     first = int(np.flatnonzero(part == np.argmin(sizes))[0])
     raise SphearError(
         f"the fluid falls into {parts} parts without a common neighbour, the smallest with {sizes.min()} of {count}"
-        f" particles at ({_text(problem.positions[first])}), and in {parts - 1} of them nothing fixes the pressure:"
-        " compute them one by one"
+        f" particles at ({place_text(problem.positions[first])}), and in {parts - 1} of them nothing fixes the"
+        " pressure: compute them one by one"
     )
 
 
@@ -111,7 +111,7 @@ def _check_walls(problem: Problem) -> None:
 def _refuse_behind(problem: Problem, behind: Array) -> None:
     if behind.any():
         first = int(np.argmax(behind))
-        raise SphearError(f"particle {first} at ({_text(problem.positions[first])}) starts behind a wall")
+        raise SphearError(f"particle {first} at ({place_text(problem.positions[first])}) starts behind a wall")
 
 
 def _check_volume(problem: Problem) -> None:
@@ -155,5 +155,6 @@ def _region(problem: Problem) -> str:
     return "box" if problem.shape is None else "shape"
 
 
-def _text(place: Array) -> str:
+def place_text(place: Array) -> str:
+    """The coordinates (d,) of a place, as messages give them."""
     return ", ".join(f"{x:.6g}" for x in place)

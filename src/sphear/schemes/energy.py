@@ -11,6 +11,11 @@ Array = np.ndarray[Any, Any]
 LEAST_ENERGY = 0.05  # of the energy of the whole fluid at its expected speed: a flow with less has hardly moved yet
 
 
+def kinetic_energy(mass: float, velocities: Array) -> float:
+    """(m / 2) sum_i u_i^2 of particles of one mass and velocities (N, d)."""
+    return 0.5 * mass * float(np.vdot(velocities, velocities))
+
+
 class EnergyBudget:
     """Kinetic energy and the work that was done on it, summed up over the steps.
 
@@ -46,7 +51,7 @@ class EnergyBudget:
 
     def kinetic(self, velocities: Array) -> float:
         """E, of velocities (N, d)."""
-        return 0.5 * self.mass * float(np.vdot(velocities, velocities))
+        return kinetic_energy(self.mass, velocities)
 
     def add(self, step: float, before: Array, after: Array, viscous: Array, force: Array) -> None:
         """Add the work of a step.

@@ -9,7 +9,7 @@ import numpy as np
 
 from sphear.boundaries.shapes.fastest import fastest
 from sphear.schemes.base import FlowInTime
-from sphear.schemes.energy import EnergyBudget
+from sphear.schemes.energy import EnergyBudget, kinetic_energy
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -37,12 +37,9 @@ class Watch:
         self.varied = problem.force is not None
         self.walls = wall_speed(problem)
         self.fastest = max(self.walls, _largest(problem.velocities))
-        self.start = self._kinetic(problem.velocities)
+        self.start = kinetic_energy(self.mass, problem.velocities)
         self.heights = self._heights(problem)
         self.scale = 0.5 * self.mass * len(problem.positions) * problem.speed**2
-
-    def _kinetic(self, velocities: Array) -> float:
-        return float(0.5 * self.mass * (velocities**2).sum())
 
     def _heights(self, problem: Problem) -> float | None:
         """sum_i f . x_i at the start; None where particles go round a period along the force."""
@@ -79,7 +76,7 @@ class Watch:
         """Kinetic energy and that in a constant force, over what they were at the start."""
         assert self.heights is not None
         given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)
-        return float(self._kinetic(flow.velocities) - self.start - given)
+        return float(kinetic_energy(self.mass, flow.velocities) - self.start - given)
 
 
 def _largest(velocities: Array) -> float:

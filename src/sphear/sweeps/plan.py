@@ -12,8 +12,7 @@ from functools import cache, cached_property
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from sphear.errors import SphearError
-from sphear.positive import shown
+from sphear.errors import SphearError, quoted
 from sphear.sweeps.cost import Costs
 from sphear.sweeps.objects import sent
 
@@ -138,7 +137,7 @@ def _check(over: Any, fixed: Any) -> None:
     """Refuse values that are not by setting, or no lists, and settings that are both fixed and gone through."""
     for what, settings in (("values to sweep over", over), ("fixed settings", fixed)):
         if not isinstance(settings, Mapping) or not all(isinstance(key, str) for key in settings):
-            raise SphearError(f"the {what} are a mapping with names of settings, not {shown(settings)}")
+            raise SphearError(f"the {what} are a mapping with names of settings, not {quoted(settings)}")
     for key, values in over.items():
         if key in fixed:
             raise SphearError(f"the setting {key} is both fixed and swept over: choose one")

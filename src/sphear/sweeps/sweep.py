@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
-from sphear.errors import SphearError
-from sphear.positive import shown
+from sphear.errors import SphearError, quoted
 from sphear.sweeps.cluster import on_cluster
 from sphear.sweeps.events import Finished, Lost, Started
 from sphear.sweeps.pool import on_processes
@@ -93,15 +92,15 @@ def _check(runs: Any, store: Any, workers: Any, scheduler: Any) -> None:
     from sphear.sweeps.store import Store
 
     if not isinstance(runs, Iterable) or not all(isinstance(run, Run) for run in runs):
-        raise SphearError(f"a sweep computes a list of runs, as plan(...) gives it, not {shown(runs)}")
+        raise SphearError(f"a sweep computes a list of runs, as plan(...) gives it, not {quoted(runs)}")
     if not isinstance(store, Store):
-        raise SphearError(f"the results of a sweep are kept in a Store(folder), not in {shown(store)}")
+        raise SphearError(f"the results of a sweep are kept in a Store(folder), not in {quoted(store)}")
     if not isinstance(workers, int) or isinstance(workers, bool):
-        raise SphearError(f"workers must be a whole number, at least 1, not {shown(workers)}")
+        raise SphearError(f"workers must be a whole number, at least 1, not {quoted(workers)}")
     if workers < 1:
-        raise SphearError(f"workers must be at least 1, not {shown(workers)}")
+        raise SphearError(f"workers must be at least 1, not {quoted(workers)}")
     if scheduler is not None and not isinstance(scheduler, str):
-        raise SphearError(f"the address of a scheduler is text, such as tcp://host:8786, not {shown(scheduler)}")
+        raise SphearError(f"the address of a scheduler is text, such as tcp://host:8786, not {quoted(scheduler)}")
 
 
 def _stored(

@@ -7,9 +7,9 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector, dot, scale, subtract
 from sphear.corrections import Correction
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
-from sphear.positive import is_positive, shown
+from sphear.positive import is_positive
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
@@ -43,7 +43,7 @@ class Cleary(ViscousTerm):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.xi is not None and not is_positive(self.xi):
-            raise SphearError(f"the factor xi of viscosity 'cleary' must be positive, not {shown(self.xi)}")
+            raise SphearError(f"the factor xi of viscosity 'cleary' must be positive, not {quoted(self.xi)}")
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar

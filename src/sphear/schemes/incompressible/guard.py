@@ -8,7 +8,7 @@ import numpy as np
 
 from sphear.boundaries.shapes import Shape
 from sphear.schemes.base import FlowFailure
-from sphear.schemes.checks import check_shape
+from sphear.schemes.checks import check_shape, place_text
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -75,8 +75,4 @@ class Guard:
         return distance
 
     def _fail(self, time: float, x: Array, particle: int, why: str) -> NoReturn:
-        raise FlowFailure(f"the flow failed at t = {time:g}, particle {particle} at ({_text(x[particle])}): {why}")
-
-
-def _text(place: Array) -> str:
-    return ", ".join(f"{x:.6g}" for x in place)
+        raise FlowFailure(f"the flow failed at t = {time:g}, particle {particle} at ({place_text(x[particle])}): {why}")
