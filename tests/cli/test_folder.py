@@ -14,6 +14,7 @@ from sphear.cases.flow import run as module
 from sphear.results import OutputFolder
 from sphear.results.lock import locked
 from sphear.whole import HOST
+from tests.cli.interrupting import interrupted_at
 
 Run = Callable[..., Any]
 CASE = ("run", "poiseuille", "--resolution", "10", "--out", "results")
@@ -122,15 +123,7 @@ def test_a_damaged_state_is_replaced_by_the_one_before_and_that_is_said(
     sphear: Run, monkeypatch: pytest.MonkeyPatch, quick: None
 ) -> None:
     monkeypatch.setenv("SPHEAR_SAVE_SECONDS", "0")
-    observe = FlowRun._observe
-
-    def observed(run: FlowRun, until: float) -> None:
-        observe(run, until)
-        if len(run.history) == 5:
-            raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_observe", observed)
+    with interrupted_at(5, monkeypatch):
         assert sphear(*CASE, "--until", "0.1").status == 130
     state = Path("results/poiseuille-state.npz")
     state.write_bytes(state.read_bytes()[:-100])

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FlowRun
 from sphear.schemes.presets import PRESETS
+from tests.cli.interrupting import interrupted_at
 
 Run = Callable[..., Any]
 SHORT = ("run", "poiseuille", "--resolution", "10", "--until", "0.1")
@@ -49,15 +49,7 @@ def test_a_mistake_is_one_sentence(sphear: Run, mistake: str, json_too: bool) ->
 @pytest.fixture
 def interrupted(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> Any:
     """What a run leaves behind that Ctrl-C ends at its third output, with --out results."""
-    observe = FlowRun._observe
-
-    def observed(run: FlowRun, until: float) -> None:
-        observe(run, until)
-        if len(run.history) == 3:
-            raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_observe", observed)
+    with interrupted_at(3, monkeypatch):
         return sphear(*SHORT, "--out", "results", "--json")
 
 
