@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -121,8 +122,13 @@ def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearEr
     return unknown("setting", key, known)
 
 
-def flow_in_time(problem: Problem, settings: Settings) -> FlowInTime:
+def flow_in_time(problem: Problem, settings: Settings, duration: float = math.inf) -> FlowInTime:
     """The flow of a problem by the scheme of the settings.
+
+    Args:
+        problem: what is to be computed.
+        settings: how.
+        duration: for how long, where that is known; implicit viscous steps resolve it.
 
     Raises:
         SphearError: they do not go together.
@@ -130,7 +136,7 @@ def flow_in_time(problem: Problem, settings: Settings) -> FlowInTime:
     if settings.scheme == "incompressible":
         from sphear.schemes.incompressible.flow import IncompressibleFlow
 
-        return IncompressibleFlow(problem, settings)
+        return IncompressibleFlow(problem, settings, duration)
     from sphear.schemes.flow import Flow
 
     if problem.shape is not None or problem.free_surface:
@@ -175,8 +181,8 @@ def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
         check_connected(problem, kernel.radius)
 
 
-def chosen_time_step(limits: dict[str, float], settings: Settings) -> float:
-    """The least of the limits, or the one asked for.
+def chosen_time_step(limits: dict[str, float], settings: Settings, duration: float = math.inf) -> float:
+    """The least of the limits, and short enough to resolve a run of a duration; or the one asked for.
 
     Raises:
         SphearError: it is beyond a limit and that is not forced.
@@ -188,4 +194,4 @@ def chosen_time_step(limits: dict[str, float], settings: Settings) -> float:
             f"the time step of {wanted:g} is beyond the {name.replace('_', '-')} limit of {limit:g}: take a smaller"
             " one, or force it by --set force=true or --force"
         )
-    return wanted or limit
+    return wanted or min(limit, settings.accurate_step(duration))

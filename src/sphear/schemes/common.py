@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
@@ -75,6 +76,10 @@ class SchemeSettings(BaseModel):
             for name, (beside, without) in self._idle(walled).items()
             if without and name in unusual
         ]
+
+    def accurate_step(self, duration: float) -> float:
+        """The longest time step that resolves a run of a duration, where stability does not limit it."""
+        return math.inf
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         """The setting beside which another has no effect, and whether it is so."""

@@ -24,7 +24,7 @@ from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
 from sphear.schemes.named import named
 from sphear.schemes.objects import text
-from sphear.schemes.problem import Problem, morris_sound_speed
+from sphear.schemes.problem import Problem, corner_sound_speed, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
 from sphear.viscosity import ViscousTerm
 
@@ -235,7 +235,7 @@ def _sound_speed(problem: Problem, settings: FlowSettings) -> float:
         equation = equation if isinstance(equation, IdealGas) else IdealGas()
     if isinstance(equation, EquationOfState):
         return float(equation.sound_speed(density, _energy_at_rest(problem, settings)))
-    return settings.sound_speed or morris_sound_speed(problem)
+    return settings.sound_speed or max(morris_sound_speed(problem), corner_sound_speed(problem))
 
 
 def _energy_at_rest(problem: Problem, settings: FlowSettings) -> float:

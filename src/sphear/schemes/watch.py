@@ -102,8 +102,7 @@ def unresolved(problem: Problem) -> list[str]:
       viscosity does.
     """
     nu, dx, length, speed = problem.kinematic_viscosity, problem.spacing, problem.length, problem.speed
-    straight = problem.shape is None and problem.walled and any(problem.periodic)
-    if nu == 0.0 or straight:
+    if nu == 0.0 or problem.straight:
         return []
     cell, layer = speed * dx / nu, math.sqrt(nu * length / speed) / dx
     said = []

@@ -54,12 +54,13 @@ class Costs:
         quickly = settings.model_copy(update=quick)
         choice = (chosen.name, tuple((name, str(value)) for name, value in quickly if name not in SCALES))
         built = self._built.get(choice)
+        duration = (settings.until or UNTIL_STEADY) * chosen.time_unit(settings)
         if built is None:
             flow = FlowRun(chosen, quickly).flow
             time_step = flow.time_step
             built = self._built[choice] = _Built(len(flow.positions), flow.kernel, flow.term, type(flow))
         else:
             problem = opened(chosen, quickly).problem(quickly)
-            time_step = chosen_time_step(built.scheme.limits_of(problem, settings, built.kernel, built.term), settings)
-        until = settings.until or UNTIL_STEADY
-        return built.particles * min(until * chosen.time_unit(settings) / time_step, settings.max_steps)
+            limits = built.scheme.limits_of(problem, settings, built.kernel, built.term)
+            time_step = chosen_time_step(limits, settings, duration)
+        return built.particles * min(duration / time_step, settings.max_steps)

@@ -48,9 +48,9 @@ class FlowRun:
         settings = named(settings)
         self.case, self.settings = opened(case, settings), settings
         problem = self.case.problem(settings)
-        self.flow = flow_in_time(problem, settings)
-        self.watch, self.unresolved = Watch(problem), unresolved(problem)
         self.unit = case.time_unit(settings)
+        self.flow = flow_in_time(problem, settings, self.planned * self.unit)
+        self.watch, self.unresolved = Watch(problem), unresolved(problem)
         self.history: list[dict[str, float]] = []
         self.end = ""
         self.seconds = 0.0

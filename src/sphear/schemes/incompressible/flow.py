@@ -53,6 +53,7 @@ class IncompressibleFlow:
     Args:
         problem: what is to be computed.
         settings: how.
+        duration: how long a run of it takes, where that is known; implicit viscous steps resolve it.
 
     Attributes:
         time: reached.
@@ -68,7 +69,7 @@ class IncompressibleFlow:
         SphearError: the settings do not fit the problem or each other.
     """
 
-    def __init__(self, problem: Problem, settings: IncompressibleSettings) -> None:
+    def __init__(self, problem: Problem, settings: IncompressibleSettings, duration: float = math.inf) -> None:
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
         check_start(problem)
@@ -82,7 +83,7 @@ class IncompressibleFlow:
         self.discretisation = Discretisation(problem, settings, self.kernel, viscous, self.threads)
         self.guard = Guard(problem, self.discretisation.region)
         self.limits = self.limits_of(problem, settings, self.kernel, self.term)
-        self.time_step = chosen_time_step(self.limits, settings)
+        self.time_step = chosen_time_step(self.limits, settings, duration)
         usual = USUAL_ALPHA * problem.speed * self.time_step / problem.length
         self.alpha = min(usual, 1.0) if settings.alpha is None else settings.alpha
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)

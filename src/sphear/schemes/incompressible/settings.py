@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -9,6 +10,8 @@ from pydantic import Field, model_validator
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, SchemeSettings
 from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, text
+
+LEAST_STEPS = 100  # of a run by implicit viscous steps
 
 
 class IncompressibleSettings(SchemeSettings):
@@ -50,7 +53,8 @@ class IncompressibleSettings(SchemeSettings):
         viscous_step: "explicit", "crank_nicolson" or "backward_euler"; these two have no viscous limit.
         preconditioner: of the pressure equation, "grid", "amg" or "jacobi".
         tolerance: relative residual of the pressure equation.
-        time_step: None takes the least of the CFL, viscous, body-force and shifting limits.
+        time_step: None takes the least of the CFL, viscous, body-force and shifting limits; with implicit viscous steps
+            no more than a hundredth of the run.
 
     Raises:
         SphearError: two settings contradict each other.
@@ -96,6 +100,10 @@ class IncompressibleSettings(SchemeSettings):
 
             written(self.solid)
         return self
+
+    def accurate_step(self, duration: float) -> float:
+        """A hundredth of the run by implicit viscous steps: nothing else limits them where a flow is slow."""
+        return math.inf if self.viscous_step == "explicit" else duration / LEAST_STEPS
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {
