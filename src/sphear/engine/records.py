@@ -119,9 +119,19 @@ def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyp
             records[entry, column + k] = values[i, k]
 
 
+@compiled
+def _pack_positions(records, coordinates, middle):  # type: ignore[no-untyped-def]  # pragma: no cover
+    for axis in range(len(coordinates)):
+        origin = coordinates[axis, middle]
+        for entry in range(len(records)):
+            records[entry, axis] = coordinates[axis, entry] - origin
+
+
 def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any]:
     """Uninitialised records, (entries, columns rounded up to whole chunks), aligned to cache lines."""
     columns = -(-columns // CHUNK) * CHUNK
+    if not columns:
+        return np.empty((entries, 0), dtype)
     item = np.dtype(dtype).itemsize
     memory = np.empty(entries * columns * item + 64, np.uint8)
     offset = -memory.ctypes.data % 64
@@ -130,6 +140,16 @@ def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any
 
 def pack(records: np.ndarray[Any, Any], column: int, values: np.ndarray[Any, Any], source: np.ndarray[Any, Any]) -> int:
     """Copy the field `values`, (N,) or (N, k), into the records from `column` on; returns the next free column."""
-    values = values.reshape(len(values), -1)
+    if values.ndim == 1:
+        values = values[:, None]
     _pack(records, column, values, source, 0, len(records))
     return column + values.shape[1]
+
+
+def pack_positions(records: np.ndarray[Any, Any], coordinates: np.ndarray[Any, Any]) -> None:
+    """Copy coordinates, (d, entries or more), into the first columns of the records.
+
+    They are taken from some particle in their midst, so that single precision spends no digits on a common offset.
+    """
+    if len(records):
+        _pack_positions(records, coordinates, len(records) // 2)

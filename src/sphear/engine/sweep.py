@@ -14,7 +14,7 @@ import numpy as np
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
 from sphear.engine.program import sweep_text
-from sphear.engine.records import empty_records, pack
+from sphear.engine.records import empty_records, pack, pack_positions
 from sphear.engine.structure import parameters
 from sphear.engine.threads import on_threads
 
@@ -39,6 +39,19 @@ def _ready(
     """The traced formula of an interaction and its parameters: looked up in every step of a small flow."""
     formula = traced(interaction, dimension, shared, own, both_sides=once)
     return formula, np.array(parameters(interaction) or [0.0], dtype)
+
+
+@lru_cache(maxsize=512)
+def _runs(columns: tuple[tuple[str, int], ...]) -> list[tuple[str, int, int, int]]:
+    """Columns of one field with components that follow each other: field, components from and to, first column.
+
+    One copy packs a run.
+    """
+    runs = []
+    for (name, _), run in groupby(enumerate(columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
+        cells = [(column, component) for column, (_, component) in run]
+        runs.append((name, cells[0][1], cells[-1][1] + 1, cells[0][0]))
+    return runs
 
 
 def shape_of(values: Array) -> Any:
@@ -84,17 +97,14 @@ class Sweep:
     def _packed(self, columns: tuple[tuple[str, int], ...], with_position: bool = False) -> Array:
         """The columns, (field, component), of each entry side by side, (entries, columns)."""
         neighbours = self.neighbours
-        column = neighbours.dimension if with_position else 0
-        records = empty_records(len(neighbours.source), column + len(columns), self.dtype)
-        # from some particle in their midst, so that single precision spends no digits on a common offset
-        for axis in range(column):
-            coordinates = neighbours.coordinates[axis, : len(records)]
-            records[:, axis] = coordinates - coordinates[len(records) // 2]
-        # columns of one field with components that follow each other are packed by one copy
-        for (name, _), run in groupby(enumerate(columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
-            components = [component for _, (_, component) in run]
-            values = self.fields[name].reshape(len(self.fields[name]), -1)
-            column = pack(records, column, values[:, components[0] : components[-1] + 1], neighbours.source)
+        dimension = neighbours.dimension if with_position else 0
+        records = empty_records(len(neighbours.source), dimension + len(columns), self.dtype)
+        if with_position:
+            pack_positions(records, neighbours.coordinates)
+        for name, first, last, column in _runs(columns):
+            values = self.fields[name]
+            values = values.reshape(len(values), -1)
+            pack(records, dimension + column, values[:, first:last], neighbours.source)
         return records
 
     @property
