@@ -41,13 +41,13 @@ KINDS: dict[str, tuple[str, dict[str, Any]]] = {
     for case in UNTIL
     for scheme, name, changes in (
         ("explicit", "default", DEFAULT),
-        ("explicit", "modern", {"preset": "modern"}),
+        ("explicit", "basa2009", {"preset": "basa2009"}),
         ("incompressible", "default", DEFAULT),
-        ("incompressible", "paper", {"preset": "paper"}),
+        ("incompressible", "zheng2018", {"preset": "zheng2018"}),
         ("incompressible", "crank_nicolson", IMPLICIT),
     )
     if not (scheme == "explicit" and case in ("cavity-cylinder", "dam-break"))
-    if not (name == "paper" and case == "dam-break")  # its walls need fluid on all sides
+    if not (name == "zheng2018" and case == "dam-break")  # its walls need fluid on all sides
 }
 FIELDS = (
     "kinetic_energy",

@@ -14,7 +14,7 @@ from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, text
 class IncompressibleSettings(SchemeSettings):
     """The settings of an incompressible flow; the defaults are what was found best (docs/incompressible.md).
 
-    Those of Zheng, Ma & Shao (2018) are the preset `paper`.
+    Those of Zheng, Ma & Shao (2018) are the preset `zheng2018`.
 
     Attributes, beside those of all schemes:
         scheme: "incompressible".
