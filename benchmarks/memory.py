@@ -1,7 +1,8 @@
 """Peak memory of a patch test and of a flow with a million particles, in bytes a particle.
 
 Each runs in a process of its own; what a process with 400 particles needs (Python, its libraries, compiled code) is
-subtracted. The flow is a Taylor-Green vortex that makes three midpoint steps with summed density, on one thread.
+subtracted. The flow is a Taylor-Green vortex that makes three midpoint steps with summed density, the settings of Basa,
+Quinlan & Lastiwka 2009, on one thread.
 """
 
 from __future__ import annotations
@@ -23,9 +24,11 @@ PatchTest(sizes=(int(sys.argv[1]),), viscosity=(sys.argv[2],), jitter=0.3).rows(
 FLOW = """
 import sys
 from sphear.cases.flow import FLOWS
+from sphear.cases.flow.chosen import flow_settings
 from sphear.schemes.flow import Flow
 case = FLOWS["taylor-green"]
-settings = case.settings(resolution=int(sys.argv[1]), viscosity=sys.argv[2], threads=1)
+changes = {"resolution": int(sys.argv[1]), "viscosity": sys.argv[2], "threads": 1}
+settings = flow_settings(case, changes, "basa2009")
 Flow(case.problem(settings), settings).advance(3)
 """
 SIDE = 1000

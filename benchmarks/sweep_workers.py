@@ -15,6 +15,7 @@ from _bench import Report
 from sphear.sweeps import Run, Store, SweepResult, plan, run_sweep
 
 REYNOLDS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+PRESET = "basa2009"
 STEPS = 6000  # some five seconds
 
 
@@ -30,8 +31,8 @@ def timed(runs: list[Run], workers: int) -> tuple[float, list[SweepResult]]:
 def main() -> None:
     report = Report(__doc__ or "")
     fixed = {"resolution": 40, "time_step": 1e-5}
-    timed(plan("poiseuille", {"reynolds": REYNOLDS[:1]}, {**fixed, "max_steps": 1}), 1)  # compiles
-    runs = plan("poiseuille", {"reynolds": REYNOLDS}, {**fixed, "max_steps": STEPS})
+    timed(plan("poiseuille", {"reynolds": REYNOLDS[:1]}, {**fixed, "max_steps": 1}, preset=PRESET), 1)  # compiles
+    runs = plan("poiseuille", {"reynolds": REYNOLDS}, {**fixed, "max_steps": STEPS}, preset=PRESET)
     taken, loops = {}, {}
     for workers in (1, 2):
         taken[workers], results = timed(runs, workers)

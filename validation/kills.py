@@ -27,14 +27,15 @@ from pathlib import Path
 from typing import Any
 
 SMALL = ("--set", "threads=1")
+PAPER = ("--preset", "basa2009", *SMALL)
 SCHEMES = {
-    "explicit": ("poiseuille", "--resolution", "10", "--until", "3", *SMALL),
+    "explicit": ("poiseuille", "--resolution", "10", "--until", "3", *PAPER),
     "kick-drift-kick": (
-        "poiseuille", "--resolution", "10", "--until", "3", "--set", "integrator=kick_drift_kick", *SMALL,
+        "poiseuille", "--resolution", "10", "--until", "3", "--set", "integrator=kick_drift_kick", *PAPER,
     ),
     "gas": (
         "poiseuille", "--resolution", "10", "--until", "3", "--set", "equation_of_state=ideal_gas",
-        "--set", "density=continuity", *SMALL,
+        "--set", "density=continuity", *PAPER,
     ),
     "incompressible": (
         "cavity", "--scheme", "incompressible", "--resolution", "12", "--until", "1", *SMALL,

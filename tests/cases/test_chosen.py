@@ -19,20 +19,22 @@ def test_a_flow_runs_to_its_end_with_the_settings_that_were_given() -> None:
     assert run.flow.velocities.shape == (144, 2)
 
 
-MORE: tuple[dict[str, Any], ...] = ({}, {"preset": "modern"}, {"preset": "modern", "kernel": "cubic"})
+MORE: tuple[dict[str, Any], ...] = ({}, {"preset": "basa2009"}, {"preset": "basa2009", "kernel": "quintic"})
 
 
 def test_what_is_given_goes_before_a_preset_and_that_before_the_defaults_of_the_case() -> None:
     plain, whole, part = (sphear.flow("cavity", resolution=12, **more).settings.model_dump() for more in MORE)
     assert whole["kernel"] != plain["kernel"]
     assert {name for name in whole if whole[name] != part[name]} == {"kernel"}
-    incompressible = sphear.flow("cavity", preset="paper", scheme="incompressible", resolution=12).settings.model_dump()
+    incompressible = sphear.flow(
+        "cavity", preset="zheng2018", scheme="incompressible", resolution=12
+    ).settings.model_dump()
     assert incompressible["neumann"] == "sfdi"
 
 
 WRONG: dict[str, tuple[str, dict[str, Any], str]] = {
     "case": ("cavitty", {}, "no case named 'cavitty': did you mean cavity"),
-    "preset": ("cavity", {"preset": "modren"}, "no preset named 'modren': did you mean modern"),
+    "preset": ("cavity", {"preset": "base2009"}, "no preset named 'base2009': did you mean basa2009"),
     "setting": ("cavity", {"reynold": 5}, "no setting named 'reynold': did you mean reynolds"),
     "value": ("cavity", {"reynolds": -1}, "the setting reynolds"),
     "kind": ("cavity", {"resolution": "many"}, "the setting resolution"),

@@ -6,12 +6,13 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+import sphear
+from sphear.cases.flow import FlowRun
 from sphear.schemes.settings import FlowSettings
 
 
 def run(case: str, **settings: Any) -> FlowRun:
-    return FlowRun(FLOWS[case], FLOWS[case].settings(**settings)).run()
+    return sphear.flow(case, preset="basa2009", **settings).run()
 
 
 # an independent program found these; a fifth is left for what the paper does not state

@@ -18,7 +18,7 @@ SMALL: dict[str, dict[str, Any]] = {
     "cavity": {"resolution": 12, "until": 0.3},
     "cavity-cylinder": {"resolution": 24, "diameter": 0.4, "max_steps": 8, "viscosity": "oger"},
     "taylor-green": {"resolution": 12, "until": 0.2, "projection": "intermediate", "shifting": "xu"},
-    "poiseuille": {**preset_settings("paper", "incompressible"), "resolution": 12, "max_steps": 8},
+    "poiseuille": {**preset_settings("zheng2018", "incompressible"), "resolution": 12, "max_steps": 8},
     "couette": {"resolution": 12, "max_steps": 6, "viscous_step": "crank_nicolson", "neumann": "adami"},
     "dam-break": {"resolution": 6, "max_steps": 8},
 }

@@ -14,6 +14,7 @@ import pytest
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.cases.flow.saved import checksum, earlier, forget, read, recover
 from sphear.errors import SphearError
+from sphear.schemes.presets import PRESETS
 
 CASE = FLOWS["poiseuille"]
 SCHEMES: dict[str, dict[str, Any]] = {
@@ -24,7 +25,7 @@ SCHEMES: dict[str, dict[str, Any]] = {
 
 
 def start(scheme: str = "midpoint") -> FlowRun:
-    return FlowRun(CASE, CASE.settings(resolution=10, until=0.1, **SCHEMES[scheme]))
+    return FlowRun(CASE, CASE.settings(**{**PRESETS["basa2009"], **SCHEMES[scheme]}, resolution=10, until=0.1))
 
 
 class Interrupted:
@@ -73,7 +74,7 @@ def test_an_interrupted_run_stands_at_its_last_output(tmp_path: Path) -> None:
 def test_a_run_that_is_interrupted_at_its_last_output_makes_no_further_step(
     changes: dict[str, Any], tmp_path: Path
 ) -> None:
-    settings = CASE.settings(resolution=10, until=0.1, **changes)
+    settings = CASE.settings(**{**PRESETS["basa2009"], **changes}, resolution=10, until=0.1)
     path = tmp_path / "state.npz"
     whole = FlowRun(CASE, settings).run()
 

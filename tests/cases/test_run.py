@@ -1,4 +1,4 @@
-"""Runs that are interrupted, kept and gone on with; and what the modern settings give."""
+"""Runs that are interrupted, kept and gone on with; and what the best settings give."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.errors import SphearError
-from sphear.schemes.presets import PRESETS, preset_settings
+from sphear.schemes.presets import BY_SCHEME, PRESETS
 
 SETTINGS: dict[str, dict[str, Any]] = {
-    "paper": {"resolution": 10, "until": 0.1},
-    "modern": {**PRESETS["modern"], "resolution": 20, "until": 0.1},
-    "kick drift kick": {"integrator": "kick_drift_kick", "resolution": 10, "until": 0.1},
+    "basa2009": {**PRESETS["basa2009"], "resolution": 10, "until": 0.1},
+    "best": {"resolution": 20, "until": 0.1},
+    "kick drift kick": {**PRESETS["basa2009"], "integrator": "kick_drift_kick", "resolution": 10, "until": 0.1},
 }
 
 
-def start(which: str = "paper", case: str = "poiseuille", **changes: Any) -> FlowRun:
+def start(which: str = "basa2009", case: str = "poiseuille", **changes: Any) -> FlowRun:
     return FlowRun(FLOWS[case], FLOWS[case].settings(**{**SETTINGS[which], **changes}))
 
 
@@ -73,7 +73,7 @@ def test_an_interrupted_run_can_be_interrupted_again(tmp_path: Path) -> None:
     interrupt(second, path, outputs=5)
     third = start()
     third.restore(path)
-    assert third.run().history == whole("paper").history
+    assert third.run().history == whole("basa2009").history
 
 
 def test_only_the_state_is_left_in_the_folder(tmp_path: Path) -> None:
@@ -148,18 +148,20 @@ def test_arrays_without_a_run_are_refused(tmp_path: Path) -> None:
     assert "there is no saved run in" in refusal(start(), path)
 
 
-def test_the_modern_settings_are_ten_times_as_accurate_as_the_papers() -> None:
+def test_the_best_settings_are_ten_times_as_accurate_as_the_papers() -> None:
     """Morris' term has an error of 2 % at t* = 5 here."""
     case = FLOWS["poiseuille"]
-    done = FlowRun(case, case.settings(**PRESETS["modern"], reynolds=0.5, resolution=20, until=1.0)).run()
+    done = FlowRun(case, case.settings(reynolds=0.5, resolution=20, until=1.0)).run()
     assert done.end == "time"
     assert done.history[-1]["rms_error"] < 0.003
 
 
-@pytest.mark.parametrize("preset", ["paper", "modern"])
-@pytest.mark.parametrize(("case", "scheme"), [(name, scheme) for name in FLOWS for scheme in FLOWS[name].defaults])
+@pytest.mark.parametrize(
+    ("case", "scheme", "preset"),
+    [(name, scheme, preset) for name in FLOWS for scheme in FLOWS[name].defaults for preset in BY_SCHEME[scheme]],
+)
 def test_every_preset_fits_every_case(preset: str, case: str, scheme: str) -> None:
-    chosen = preset_settings(preset, scheme)
+    chosen = FLOWS[case].preset(preset, scheme)
     settings = FLOWS[case].settings(scheme=scheme, **chosen)
     assert settings.scheme == scheme
     assert all(getattr(settings, key) == value for key, value in chosen.items())

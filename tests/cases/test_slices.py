@@ -14,10 +14,14 @@ from sphear.cases.flow import run as module
 from sphear.cases.flow.pace import Savings, Slices
 from sphear.cases.flow.saved import About, read, write
 from sphear.errors import SphearError
+from sphear.schemes.presets import PRESETS
 
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
-    "explicit": ("poiseuille", {"resolution": 10, "until": 0.3}),
-    "kick drift kick": ("poiseuille", {"resolution": 10, "until": 0.3, "integrator": "kick_drift_kick"}),
+    "explicit": ("poiseuille", {**PRESETS["basa2009"], "resolution": 10, "until": 0.3}),
+    "kick drift kick": (
+        "poiseuille",
+        {**PRESETS["basa2009"], "resolution": 10, "until": 0.3, "integrator": "kick_drift_kick"},
+    ),
     "incompressible": ("cavity", {"scheme": "incompressible", "resolution": 10, "until": 1.2}),
 }
 FEW = 5  # outputs of a run, so that there are steps between them

@@ -17,7 +17,7 @@ from sphear.whole import HOST
 from tests.cli.interrupting import interrupted_at
 
 Run = Callable[..., Any]
-CASE = ("run", "poiseuille", "--resolution", "10", "--out", "results")
+CASE = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--out", "results")
 FILES = {f"poiseuille{end}" for end in (".json", ".csv", "-particles.csv", ".png", ".svg", "-state.npz")}
 
 
@@ -48,7 +48,22 @@ def test_results_of_another_run_are_not_replaced(sphear: Run, quick: None) -> No
     assert written() == before
     assert sphear(*CASE, "--until", "0.1", "--reynolds", "1", "--overwrite", "--json").status == 0
     assert written()["settings"]["reynolds"] == 1.0
-    assert sphear("run", "couette", "--resolution", "10", "--until", "0.01", "--out", "results", "--json").status == 0
+    assert (
+        sphear(
+            "run",
+            "couette",
+            "--preset",
+            "basa2009",
+            "--resolution",
+            "10",
+            "--until",
+            "0.01",
+            "--out",
+            "results",
+            "--json",
+        ).status
+        == 0
+    )
 
 
 def test_results_without_a_state_are_not_replaced_either(sphear: Run, quick: None) -> None:

@@ -40,7 +40,7 @@ def test_names_are_the_registered_ones(sphear: Run) -> None:
     assert found == ["oger", "cubic_spline", "jacobi", "morris"]
 
 
-@pytest.mark.parametrize("preset", ["paper", "zheng2018", "modern"])
+@pytest.mark.parametrize("preset", ["zheng2018", "Zheng2018"])
 @pytest.mark.parametrize("command", [CAVITY, CYLINDER])
 def test_presets_of_the_scheme(preset: str, command: tuple[str, ...], sphear: Run) -> None:
     settings = sphear(*command, "--preset", preset, "--set", "max_steps=1", "--json").json()["settings"]

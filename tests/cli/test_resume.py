@@ -13,23 +13,24 @@ from sphear.schemes.presets import PRESETS
 from tests.cli.interrupting import interrupted_at
 
 Run = Callable[..., Any]
-SHORT = ("run", "poiseuille", "--resolution", "10", "--until", "0.1")
+SHORT = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--until", "0.1")
 
 
 def test_the_settings_of_a_preset_are_in_the_json(sphear: Run) -> None:
-    settings = sphear("run", "poiseuille", "--preset", "modern", "--set", "max_steps=1", "--json").json()["settings"]
-    assert {key: settings[key] for key in PRESETS["modern"]} == PRESETS["modern"]
+    settings = sphear("run", "poiseuille", "--preset", "basa2009", "--set", "max_steps=1", "--json").json()["settings"]
+    resolved = {key: value for key, value in PRESETS["basa2009"].items() if value is not None}
+    assert {key: settings[key] for key in resolved} == resolved
 
 
 def test_other_options_go_before_those_of_a_preset(sphear: Run) -> None:
-    command = ("run", "poiseuille", "--preset", "modern", "-v", "morris", "--set", "wall_velocity=linear")
+    command = ("run", "poiseuille", "--preset", "basa2009", "-v", "violeau", "--set", "wall_velocity=mirror")
     settings = sphear(*command, "--set", "max_steps=1", "--json").json()["settings"]
-    assert (settings["viscosity"], settings["wall_velocity"]) == ("morris", "linear")
-    assert settings["correction"] == PRESETS["modern"]["correction"]
+    assert (settings["viscosity"], settings["wall_velocity"]) == ("violeau", "mirror")
+    assert settings["correction"] == PRESETS["basa2009"]["correction"]
 
 
 WRONG = {
-    "unknown preset": (["--preset", "modren"], "no preset named 'modren': did you mean modern"),
+    "unknown preset": (["--preset", "base2009"], "no preset named 'base2009': did you mean basa2009"),
     "no folder": (["--resume"], "--resume goes on with the run of a folder: name it by --out DIR"),
     "no state": (["--resume", "--out", "results"], "there is no saved run in"),
 }
@@ -80,7 +81,7 @@ def test_another_start_into_the_folder_of_an_interrupted_run_is_refused(sphear: 
 def test_resume_to_an_earlier_end_is_refused(
     sphear: Run, interrupted: Any, earlier: tuple[str, ...], name: str
 ) -> None:
-    command = ("run", "poiseuille", "--resolution", "10", "--out", "results", "--resume")
+    command = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--out", "results", "--resume")
     refused = sphear(*command, *(("--until", "0.1") if name == "max_steps" else ()), *earlier)
     assert (refused.status, refused.out) == (2, "")
     assert f"beyond {name} = " in refused.err

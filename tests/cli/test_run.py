@@ -18,7 +18,7 @@ Run = Callable[..., Any]
 
 
 def test_json_is_one_document(sphear: Run) -> None:
-    result = sphear("run", "poiseuille", "--until", "0.1", "--json").json()
+    result = sphear("run", "poiseuille", "--preset", "basa2009", "--until", "0.1", "--json").json()
     assert list(result) == ["case", "settings", "metrics", "warnings", "versions", "performance"]
     assert result["case"] == "poiseuille"
     assert result["settings"]["until"] == 0.1
@@ -34,14 +34,24 @@ def test_a_result_says_what_computed_it(sphear: Run) -> None:
 
 
 def test_settings_by_option_and_by_set(sphear: Run) -> None:
-    command = ("run", "poiseuille", "--json", "--set", "until=0.05", "--set", "sound-speed = 50")
+    command = (
+        "run",
+        "poiseuille",
+        "--preset",
+        "basa2009",
+        "--json",
+        "--set",
+        "until=0.05",
+        "--set",
+        "sound-speed = 50",
+    )
     settings = sphear(*command, "--resolution", "10", "-v", "E", "--reynolds", "0.25").json()["settings"]
     assert (settings["until"], settings["sound_speed"], settings["resolution"]) == (0.05, 50.0, 10)
     assert (settings["viscosity"], settings["reynolds"]) == ("morris", 0.25)
 
 
 def test_a_table_says_what_is_computed_and_how_it_ended(sphear: Run) -> None:
-    outcome = sphear("run", "couette", "--until", "0.01", "--resolution", "10")
+    outcome = sphear("run", "couette", "--preset", "basa2009", "--until", "0.01", "--resolution", "10")
     assert (outcome.status, outcome.err) == (0, "")
     for text in ("couette: 100 particles, Re = 1", "sound speed", "time step", "rms error", "End: time.", "a second"):
         assert text in outcome.out
@@ -53,7 +63,7 @@ def test_underscores_do_for_hyphens(sphear: Run) -> None:
 
 
 def test_files(sphear: Run) -> None:
-    outcome = sphear("run", "poiseuille", "--until", "0.1", "--json", "--out", "results")
+    outcome = sphear("run", "poiseuille", "--preset", "basa2009", "--until", "0.1", "--json", "--out", "results")
     files = {path.name for path in Path("results").iterdir()}
     assert {"poiseuille.json", "poiseuille.csv", "poiseuille.png", "poiseuille.svg"} <= files
     written = json.loads(Path("results/poiseuille.json").read_text())
@@ -64,7 +74,9 @@ def test_files(sphear: Run) -> None:
 
 
 def test_particles_are_written_for_other_programs(sphear: Run) -> None:
-    sphear("run", "couette", "--resolution", "10", "--until", "0.01", "--json", "--out", "results")
+    sphear(
+        "run", "couette", "--preset", "basa2009", "--resolution", "10", "--until", "0.01", "--json", "--out", "results"
+    )
     heading, *lines = Path("results/couette-particles.csv").read_text().splitlines()
     assert heading == "x0,x1,u0,u1,density,pressure"
     rows = [[float(number) for number in line.split(",")] for line in lines]
@@ -75,7 +87,7 @@ def test_particles_are_written_for_other_programs(sphear: Run) -> None:
 
 
 def test_the_cavity_has_its_numbers_and_profiles(sphear: Run) -> None:
-    result = sphear("run", "cavity", "--resolution", "12", "--until", "0.05", "--json").json()
+    result = sphear("run", "cavity", "--preset", "basa2009", "--resolution", "12", "--until", "0.05", "--json").json()
     assert list(result) == ["case", "settings", "metrics", "profiles", "warnings", "versions", "performance"]
     assert set(result["metrics"]) == {
         "time", "steps", "kinetic_energy", "kinetic_energy_error", "u_min", "reference_missing", "end", "failure_time"
@@ -89,13 +101,15 @@ def test_the_cavity_has_its_numbers_and_profiles(sphear: Run) -> None:
 
 
 def test_a_forced_time_step_is_said(sphear: Run) -> None:
-    outcome = sphear("run", "poiseuille", "--set", "time_step=0.002", "--set", "max_steps=1", "--force")
+    outcome = sphear(
+        "run", "poiseuille", "--preset", "basa2009", "--set", "time_step=0.002", "--set", "max_steps=1", "--force"
+    )
     assert outcome.status == 0
     assert "warning: the time step is beyond its limit" in outcome.out
 
 
 def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
-    command = ("run", "poiseuille", "--set", "sound_speed=0.2", "--until", "5", "--json")
+    command = ("run", "poiseuille", "--preset", "basa2009", "--set", "sound_speed=0.2", "--until", "5", "--json")
     outcome = sphear(*command)
     assert (outcome.status, outcome.err) == (3, "")
     result = json.loads(outcome.out)
@@ -106,9 +120,15 @@ def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
 @pytest.mark.parametrize(
     ("command", "said"),
     [
-        (["poiseuille", "--set", "shifting_strength=3"], "shifting_strength has no effect with transport=none"),
-        (["poiseuille", "--set", "diffusion_form=antuono"], "diffusion_form has no effect with density_diffusion=0"),
-        (["couette", "--set", "walls=adami", "--set", "wall_velocity=quadratic"], "no effect with walls=adami"),
+        (
+            ["poiseuille", "--set", "transport=none", "--set", "shifting_strength=3"],
+            "shifting_strength has no effect with transport=none",
+        ),
+        (
+            ["poiseuille", "--preset", "basa2009", "--set", "diffusion_form=antuono"],
+            "diffusion_form has no effect with density_diffusion=0",
+        ),
+        (["couette", "--set", "walls=adami", "--set", "wall_velocity=linear"], "no effect with walls=adami"),
         (["poiseuille", "--set", "initial_pressure=5"], "no effect with equation_of_state=batchelor_tait"),
         (
             [
@@ -148,15 +168,24 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "Re is infinite": (["couette", "--reynolds", "inf"], "the setting reynolds should be a finite number"),
     "until is nan": (["couette", "--until", "nan"], "the setting until should be"),
     "too coarse": (["poiseuille", "--resolution", "3"], "the resolution of 3 is too coarse"),
-    "time step": (["poiseuille", "--set", "time_step=1"], "the time step of 1 is beyond the viscous limit of"),
-    "diffusion of a sum": (["poiseuille", "--set", "density_diffusion=0.1"], "density=summation has none"),
-    "unmatched": (["poiseuille", "--set", "momentum=products"], "density=summation and momentum=products"),
+    "time step": (
+        ["poiseuille", "--preset", "basa2009", "--set", "time_step=1"],
+        "the time step of 1 is beyond the viscous limit of",
+    ),
+    "diffusion of a sum": (
+        ["poiseuille", "--set", "density=summation", "--set", "density_diffusion=0.1"],
+        "density=summation has none",
+    ),
+    "unmatched": (
+        ["poiseuille", "--set", "density=summation", "--set", "momentum=products"],
+        "density=summation and momentum=products",
+    ),
     "two settings of a gas": (
         ["poiseuille", "--set", "equation_of_state=ideal_gas", "--set", "transport=shifting"],
         "transport=shifting moves particles without their energy, which equation_of_state=ideal_gas needs",
     ),
     "slip without mirrors": (
-        ["cavity", "--set", "density=continuity", "--set", "slip=true"],
+        ["cavity", "--set", "walls=fixed", "--set", "slip=true"],
         "slip is about the continuity equation beside mirrors, and not for density=continuity with walls=fixed",
     ),
     "transport of a continuity": (
@@ -164,7 +193,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
         "transport=transport_velocity is made for density=summation, not for density=continuity",
     ),
     "gradients that walls have not": (
-        ["poiseuille", "--preset", "modern", "--set", "walls=adami", "--set", "slip=false"],
+        ["poiseuille", "--set", "diffusion_form=antuono", "--set", "walls=adami"],
         "diffusion_form=antuono needs density gradients in the walls, which walls=adami has not",
     ),
     "sound of a gas": (

@@ -15,7 +15,7 @@ import pytest
 import sphear
 
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(sphear.__file__).parents[1])}
-SHORT = ("run", "poiseuille", "--resolution", "10", "--until", "0.1")
+SHORT = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--until", "0.1")
 # Ctrl-C in the fourth call of the compiled loop, the first of which makes no step
 CTRL_C = """
 import os, signal, sphear.schemes.flow as module

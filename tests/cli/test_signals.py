@@ -19,7 +19,7 @@ from sphear.results import OutputFolder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals are those of POSIX")
 Run = Callable[..., Any]
-CASE = ("run", "poiseuille", "--resolution", "10", "--until", "0.1", "--out", "results")
+CASE = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--until", "0.1", "--out", "results")
 SENT = {
     "SIGTERM": ((signal.SIGTERM,), 143),
     "SIGHUP": ((signal.SIGHUP,), 129),

@@ -21,7 +21,7 @@ from sphear.sweeps import SweepResult
 
 Run = Callable[..., Any]
 
-SMALL = ("sweep", "poiseuille", "--set", "until=0.05", "--out", "results")
+SMALL = ("sweep", "poiseuille", "--preset", "basa2009", "--set", "until=0.05", "--out", "results")
 OVER = ("--over", "viscosity=morris,E", "--over", "resolution=8, 10")
 
 
@@ -65,7 +65,19 @@ def test_what_is_stored_is_not_computed_again(sphear: Run) -> None:
 
 
 def test_a_flow_that_failed_is_a_result(sphear: Run) -> None:
-    command = ("sweep", "poiseuille", "--set", "until=5", "--over", "sound_speed=0.2", "--json", "--out", "results")
+    command = (
+        "sweep",
+        "poiseuille",
+        "--preset",
+        "basa2009",
+        "--set",
+        "until=5",
+        "--over",
+        "sound_speed=0.2",
+        "--json",
+        "--out",
+        "results",
+    )
     (row,) = sphear(*command).json()["runs"]
     assert row["end"].startswith("failed: ")
     assert row["metrics"]["failure_time"] > 0
@@ -88,7 +100,18 @@ def test_runs_that_were_lost_are_said(as_json: bool, sphear: Run, monkeypatch: p
 def test_ctrl_c_says_how_to_go_on(tmp_path: Path) -> None:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)  # a child ignores what its parent does
     stored = tmp_path / "results" / "runs"
-    command = ("sweep", "poiseuille", "--set", "until=1e9", "--over", "max_steps=2,3,100000000", "--workers", "2")
+    command = (
+        "sweep",
+        "poiseuille",
+        "--preset",
+        "basa2009",
+        "--set",
+        "until=1e9",
+        "--over",
+        "max_steps=2,3,100000000",
+        "--workers",
+        "2",
+    )
     process = subprocess.Popen(
         [sys.executable, "-m", "sphear", *command, "--out", "results"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path, start_new_session=True,

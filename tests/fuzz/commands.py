@@ -127,7 +127,7 @@ def _form(draw: Draw) -> list[str]:
     return ["run", case, *draw.choice((
         ["--set", "kernel"], ["--set", "reynolds=1", "--set", "reynolds=2"], ["--set"], ["--reynolds"],
         ["--reynolds", "1", "--set", "reynolds=1"], ["--set", ""], ["--set", "="], ["--set", "=1"], ["extra"],
-        [f"--{no_name(draw, ('reynolds', 'json'))}"], ["--preset", no_name(draw, ("paper", "modern"))],
+        [f"--{no_name(draw, ('reynolds', 'json'))}"], ["--preset", no_name(draw, ("basa2009", "zheng2018"))],
         ["--set", f"kernel={no_text(draw)}"], ["--set", no_text(draw)], ["--viscosity", no_text(draw)],
     ))]  # fmt: skip
 

@@ -18,6 +18,7 @@ from sphear.cases.flow import FLOWS
 from sphear.checked import checked
 from sphear.schemes.base import FlowFailure
 from sphear.schemes.flow import Flow
+from sphear.schemes.presets import PRESETS
 from sphear.schemes.problem import Problem, morris_sound_speed
 from sphear.schemes.settings import FlowSettings
 from tests.particles import jittered
@@ -30,7 +31,7 @@ PAIRS = [("summation", "squares"), ("continuity", "products")]
 
 
 def channel(resolution: int = 10, **changes: Any) -> tuple[Problem, FlowSettings]:
-    settings = FLOWS["poiseuille"].explicit(resolution=resolution, **changes)
+    settings = FLOWS["poiseuille"].explicit(resolution=resolution, **{**PRESETS["basa2009"], **changes})
     return FLOWS["poiseuille"].problem(settings), settings
 
 
@@ -59,7 +60,8 @@ def smooth(viscosity: float) -> Problem:
 
 def conserving(**changes: Any) -> FlowSettings:
     """Without pressure reduction; the rule for walls, which there are none of, is that of another test."""
-    return FlowSettings(pressure_reduction="none", wall_velocity="mirror", **changes)
+    usual = {**PRESETS["basa2009"], "pressure_reduction": "none", "wall_velocity": "mirror"}
+    return FlowSettings(**{**usual, **changes})
 
 
 @pytest.mark.parametrize(
@@ -406,7 +408,7 @@ def test_settings_that_contradict_each_other_are_both_named(settings: dict[str, 
 def test_wrong_settings_are_one_sentence_however_they_are_made(case: str | None) -> None:
     make: Any = FlowSettings if case is None else FLOWS[case].settings
     with pytest.raises(SphearError, match=r"^density_diffusion smooths the continuity equation and density=summation"):
-        make(density_diffusion=0.1)
+        make(density="summation", density_diffusion=0.1)
     with pytest.raises(SphearError, match=r"^the setting reynolds should be greater than 0, not -1$"):
         make(reynolds=-1)
 

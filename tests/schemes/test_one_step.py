@@ -10,6 +10,7 @@ import pytest
 
 from sphear.boundaries import Box
 from sphear.schemes.flow import Flow
+from sphear.schemes.presets import PRESETS
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
 from tests.particles import jittered
@@ -67,7 +68,7 @@ def settings(names: str, changes: dict[str, Any]) -> FlowSettings:
         "h_over_dx": 1.57, "time_step": 0.002, "sound_speed": None if state == "gas" else 12.0,
         "initial_pressure": 20.0, "resolution": COUNT, "shifting_strength": 0.6, "background_pressure": 0.3,
     }  # fmt: skip
-    return FlowSettings.model_validate(chosen | others)
+    return FlowSettings.model_validate({**PRESETS["basa2009"], **chosen, **others})
 
 
 def problem(cavity: bool) -> Problem:

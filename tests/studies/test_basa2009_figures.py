@@ -154,11 +154,11 @@ def test_figure_5_agrees_with_the_paper_as_far_as_the_numbers_do(changes: Any, v
 
 def test_figure_5_says_the_numbers_and_is_drawn(tmp_path: Path) -> None:
     data = robustness({})
-    modern = robustness_results.entries([channel(0.5, "steady", [(5.0, 0.001), (28.0, 0.0015)])])
-    result = figure_5.present({**data, "modern_settings": modern["settings"], "modern": modern["runs"]})
+    best = robustness_results.entries([channel(0.5, "steady", [(5.0, 0.001), (28.0, 0.0015)])])
+    result = figure_5.present({**data, "best_settings": best["settings"], "best": best["runs"]})
     assert "takeda 0 (3)" in result.finding
     assert "violeau 6.00%" in result.finding
-    assert "the modern settings reach it up to Re = 0.5, errors at most 0.15%" in result.finding
+    assert "the best settings reach it up to Re = 0.5, errors at most 0.15%" in result.finding
     first = result.tables[0].rows
     assert [row["reynolds"] for row in first] == ["0.5", "3"]
     assert (first[0]["takeda"], first[1]["morris"]) == ("6", "steady 28")

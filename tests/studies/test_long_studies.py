@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from sphear import studies
 from sphear.results import OutputFolder
 from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10
-from sphear.studies.basa2009.robustness import MODERN_REYNOLDS
+from sphear.studies.basa2009.robustness import BEST_REYNOLDS
 from sphear.studies.kept import LongStudy, as_text, kept
 from sphear.studies.result import no_progress
 from sphear.sweeps import plan
@@ -69,8 +69,10 @@ def test_an_unknown_item_is_named_with_the_nearest() -> None:
 def test_the_channels_are_computed_and_presented(own_store: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     short: dict[str, Any] = {"resolution": 10, "until": 0.05}
     over = {"viscosity": ("violeau", "morris"), "reynolds": (0.3, 0.5)}
-    monkeypatch.setattr(figure_5, "runs", lambda quick: plan("poiseuille", over, short))
-    monkeypatch.setattr(figure_5, "modern_runs", lambda quick: plan("poiseuille", {"reynolds": (0.5,)}, short))
+    monkeypatch.setattr(figure_5, "runs", lambda quick: plan("poiseuille", over, short, preset="basa2009"))
+    monkeypatch.setattr(
+        figure_5, "best_runs", lambda quick: plan("poiseuille", {"reynolds": (0.5,)}, short, preset="basa2009")
+    )
     told: list[str] = []
     data = figure_5.compute(quick=True, workers=1, progress=told.append)
     assert told
@@ -83,22 +85,22 @@ def test_the_channels_are_computed_and_presented(own_store: Path, monkeypatch: p
     assert json.loads(as_text(data)) == data
     again: list[str] = []
     assert figure_5.compute(quick=True, workers=1, progress=again.append) == data  # the runs are kept
-    assert len(list(own_store.rglob("*.json"))) == 4  # that of the modern settings is one of the others here
+    assert len(list(own_store.rglob("*.json"))) == 4  # that of the best settings is one of the others here
     assert figure_5.present(data).agrees == "partly"
 
 
-def test_the_modern_channels_reach_the_steady_state_at_every_reynolds_number() -> None:
+def test_the_best_channels_reach_the_steady_state_at_every_reynolds_number() -> None:
     data = kept("basa2009", "figure-5")
-    assert {row["reynolds"]: row["end"] for row in data["modern"]} == dict.fromkeys(MODERN_REYNOLDS, "steady")
-    assert max(MODERN_REYNOLDS) == 1000
-    assert max(row["rms_error"] for row in data["modern"]) < 2e-4
-    assert (data["modern_settings"]["resolution"], data["modern_settings"]["slip"]) == (20, False)
+    assert {row["reynolds"]: row["end"] for row in data["best"]} == dict.fromkeys(BEST_REYNOLDS, "steady")
+    assert max(BEST_REYNOLDS) == 1000
+    assert max(row["rms_error"] for row in data["best"]) < 2e-4
+    assert (data["best_settings"]["resolution"], data["best_settings"]["slip"]) == (20, False)
 
 
-def test_no_modern_channel_that_reached_the_steady_state_is_said() -> None:
+def test_no_best_channel_that_reached_the_steady_state_is_said() -> None:
     data = kept("basa2009", "figure-5")
     lost = [{**row, "end": "failed: so"} for row in data["runs"][:1]]
-    assert "up to Re = 0, errors at most failed" in figure_5.present({**data, "modern": lost}).finding
+    assert "up to Re = 0, errors at most failed" in figure_5.present({**data, "best": lost}).finding
 
 
 def test_the_cavity_is_computed_and_presented_by_both_of_its_figures(own_store: Path) -> None:

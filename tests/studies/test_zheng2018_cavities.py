@@ -41,7 +41,7 @@ def made_up(case: str, term: str, size: int, error: float, end: str = "time") ->
     lines = {"stations": at} if case == "cavity" else {"x": at, "y": at}
     values = {name: ((1 - error) * curve.at(at)).tolist() for name, curve in (("u", flow.u), ("v", flow.v))}
     row = {
-        "preset": "modern", "reynolds": 1000.0, "resolution": size, "viscosity": term, "until": 40.0, "end": end,
+        "preset": "defaults", "reynolds": 1000.0, "resolution": size, "viscosity": term, "until": 40.0, "end": end,
         "time": 40.0 if end == "time" else 3.0, "steps": 100 * size, "seconds": 1.0, "particles": size**2,
         "kinetic_energy": 0.04, "kinetic_energy_error": -error, "iterations_mean": 3.0,
         "energy": [[0.4, 0.01], [40.0, 0.04]],
@@ -204,7 +204,7 @@ def test_kept_runs_are_of_the_plan_and_scored_as_now(case: str) -> None:
         for name, value in scores(case, row).items():
             assert row[name] == pytest.approx(value, abs=2e-5), (identity(row), name)
         assert len(row["energy"]) <= 100
-        drawn = row["viscosity"] == "oger" and row["preset"] == "modern" and row["reynolds"] == 1000
+        drawn = row["viscosity"] == "oger" and row["preset"] == "defaults" and row["reynolds"] == 1000
         assert ("field_u" in row) == drawn
         if drawn:
             assert len(row["field_u"]) == len(row["field_v"]) == cavities.POINTS**2
@@ -233,14 +233,15 @@ def test_new_rows_replace_old_ones_and_keep_the_rest() -> None:
 def test_runs_are_chosen_by_size_and_term() -> None:
     few = chosen(["cavity"], at_most=50, terms=("oger",))
     assert {(each.resolution, each.reynolds, each.preset) for each in few} == {
-        (40, 1000.0, "modern"), (40, 1000.0, "paper"), (40, 1000.0, "paper with shifting"), (50, 100.0, "modern"),
+        (40, 1000.0, "defaults"), (40, 1000.0, "zheng2018"), (40, 1000.0, "zheng2018 with shifting"),
+        (50, 100.0, "defaults"),
     }  # fmt: skip
     assert len(chosen(CASES)) == len(set(chosen(CASES))) == sum(len(wanted(case)) for case in CASES)
     assert {each.resolution for each in wanted("cavity", quick=True)} == set(cavities.QUICK_SIZES)
 
 
 def test_the_papers_own_settings_are_the_preset_with_its_time_step() -> None:
-    settings = Wanted("cavity", "gotoh", 40, preset="paper").run().given
+    settings = Wanted("cavity", "gotoh", 40, preset="zheng2018").run().given
     assert (settings["time_step"], settings["alpha"], settings["shifting"]) == (0.001, 0.01, "none")
     assert (settings["viscosity"], settings["neumann"], settings["gradient"]) == ("gotoh", "sfdi", "symmetric")
     shifted = Wanted("cavity", "gotoh", 40, preset=cavities.SHIFTED).run().given
@@ -249,7 +250,7 @@ def test_the_papers_own_settings_are_the_preset_with_its_time_step() -> None:
 
 
 def test_the_papers_own_settings_are_said_to_fail_and_to_hold() -> None:
-    own = {"preset": "paper", "end": "failed: so", "time": 0.17, "profiles": {}}
+    own = {"preset": "zheng2018", "end": "failed: so", "time": 0.17, "profiles": {}}
     shifted = made_up("cavity", "oger", 40, 0.1) | {"preset": cavities.SHIFTED}
     whole = data("cavity", ALIKE)
     whole["runs"] += [{**shifted, **own}, {**shifted, **own, "resolution": 100, "time": 0.09}, shifted]

@@ -39,4 +39,4 @@ def sweep(calls: Any, store: Store) -> Callable[..., list[SweepResult]]:
 
 def runs(resolutions: list[int]) -> list[Run]:
     """Runs of these resolutions."""
-    return plan("poiseuille", {"resolution": resolutions}, {"until": 0.05})
+    return plan("poiseuille", {"resolution": resolutions}, {"until": 0.05}, preset="basa2009")

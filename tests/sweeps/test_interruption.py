@@ -27,7 +27,7 @@ SCRIPT = f"""
 import sys
 from sphear.sweeps import Store, plan, run_sweep
 if __name__ == "__main__":
-    runs = plan("poiseuille", {{"resolution": [10, 20, {SLEEPS}]}}, {{"until": 0.05}})
+    runs = plan("poiseuille", {{"resolution": [10, 20, {SLEEPS}]}}, {{"until": 0.05}}, preset="basa2009")
     try:
         run_sweep(runs, Store(sys.argv[1]), workers=2, compute="{SCRIPTED}")
     except KeyboardInterrupt:

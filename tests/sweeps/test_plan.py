@@ -8,6 +8,7 @@ import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.errors import SphearError
+from sphear.schemes.presets import PRESETS
 from sphear.sweeps import Run, plan
 
 
@@ -38,7 +39,7 @@ def test_a_run_without_choices_is_one_run() -> None:
 
 
 def run(**settings: Any) -> Run:
-    return Run("poiseuille", FLOWS["poiseuille"].settings(**settings))
+    return Run("poiseuille", FLOWS["poiseuille"].settings(**{**PRESETS["basa2009"], **settings}))
 
 
 def test_the_key_is_readable_and_changes_with_every_setting_that_matters() -> None:

@@ -12,7 +12,7 @@ def test_schemes_are_gone_through_like_any_setting() -> None:
     explicit, incompressible = plan("cavity", {"scheme": ["explicit", "incompressible"]}, {"resolution": 12})
     assert (explicit.settings.scheme, incompressible.settings.scheme) == ("explicit", "incompressible")
     assert incompressible.key.startswith("cavity-incompressible-fatehi_manzari-none-re100-n12-")
-    assert explicit.key.startswith("cavity-morris-shepard-re100-n12-")
+    assert explicit.key.startswith("cavity-fatehi_manzari-bonet_lok-re100-n12-")
     assert incompressible.cost > 0
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import sphear
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.errors import SphearError
 from sphear.sweeps import Store, plan, run_sweep
@@ -101,7 +102,7 @@ def test_a_store_that_cannot_be_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_long_history_is_thinned_and_keeps_its_ends() -> None:
-    flow = FlowRun(FLOWS["poiseuille"], FLOWS["poiseuille"].settings(resolution=10, until=0.05)).run()
+    flow = sphear.flow("poiseuille", preset="basa2009", resolution=10, until=0.05).run()
     flow.history = [{**flow.history[0], "steps": float(step)} for step in range(1234)]
     kept = [row["steps"] for row in record(flow)["history"]]
     assert len(kept) == HISTORY
@@ -110,7 +111,7 @@ def test_a_long_history_is_thinned_and_keeps_its_ends() -> None:
 
 
 def test_a_flow_is_stored_as_it_was_computed(store: Store) -> None:
-    (run,) = plan("poiseuille", {"resolution": [10]}, {"until": 0.05})
+    (run,) = plan("poiseuille", {"resolution": [10]}, {"until": 0.05}, preset="basa2009")
     (result,) = run_sweep([run], store)
     alone = record(FlowRun(FLOWS[run.case], run.settings).run())
     assert result.end == alone["end"]

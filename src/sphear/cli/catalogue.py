@@ -138,7 +138,7 @@ def _described_case(name: str) -> dict[str, Any]:
         case = FLOWS[name]
         settings = {scheme: case.settings(scheme=scheme).model_dump(mode="json") for scheme in case.defaults}
         about = {scheme: of_settings(case.kind(scheme)) for scheme in settings}
-        presets = {scheme: {key: dict(BY_SCHEME[scheme][key]) for key in BY_SCHEME[scheme]} for scheme in settings}
+        presets = {scheme: {key: case.preset(key, scheme) for key in BY_SCHEME[scheme]} for scheme in settings}
         return {
             "kind": "cases", "name": name, "summary": CASES[name], "schemes": list(settings), **settings,
             "explained": about, "presets": presets,

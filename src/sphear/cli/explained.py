@@ -47,7 +47,7 @@ def case_lines(facts: Mapping[str, Any]) -> list[str]:
             lines += _section(f"settings of scheme={scheme}", facts, scheme, own)
     for scheme, presets in facts.get("presets", {}).items():
         for name, settings in presets.items():
-            chosen = ", ".join(f"{key}={value}" for key, value in settings.items()) or "the general defaults"
+            chosen = ", ".join(f"{key}={_short(value)}" for key, value in settings.items())
             lines += ["", f"  --preset {name} (scheme={scheme})", *_wrapped(chosen)]
     return lines
 

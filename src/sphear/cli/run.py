@@ -31,7 +31,7 @@ def run(
     resolution: int | None = typer.Option(None, help="Particles across the flow."),
     scheme: str | None = typer.Option(None, help="explicit (weakly compressible, compressible) or incompressible."),
     until: float | None = typer.Option(None, help="When to stop, in the time unit of the case."),
-    preset: str | None = typer.Option(None, help="Settings by name: paper or modern; other options go before them."),
+    preset: str | None = typer.Option(None, help="A paper's settings: basa2009 or zheng2018; options go before them."),
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
     out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history, particles, JSON to this folder."),

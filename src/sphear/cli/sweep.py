@@ -24,6 +24,7 @@ def sweep(
     case: str = typer.Argument(..., metavar="CASE", help="A flow: sphear list cases."),
     over: list[str] = typer.Option((), "--over", metavar="KEY=V1,V2,...", help="Values of a setting; may be repeated."),
     texts: list[str] = typer.Option((), "--set", metavar="KEY=VALUE", help="A setting of all runs; may be repeated."),
+    preset: str | None = typer.Option(None, help="A paper's settings: basa2009 or zheng2018; options go before them."),
     workers: int | None = typer.Option(None, help="Processes; 1 if not given."),
     scheduler: str | None = typer.Option(None, metavar="ADDRESS", help="Use the workers of this Dask scheduler."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
@@ -48,7 +49,7 @@ def sweep(
     store = Store(files.path / "runs")
     last: list[SweepProgress] = []
     with progress(f"sweep of {case}") as tell:
-        runs = plan(case, values, fixed, lambda planned, of: tell(f"{planned} of {of} runs planned"))
+        runs = plan(case, values, fixed, lambda planned, of: tell(f"{planned} of {of} runs planned"), preset=preset)
 
         def show(state: SweepProgress) -> None:
             last[:] = [state]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
@@ -68,9 +69,8 @@ class SchemeSettings(BaseModel):
         Args:
             walled: whether the flow has walls.
         """
-        unusual = {
-            name for name in self.model_fields_set if getattr(self, name) != type(self).model_fields[name].default
-        }
+        usual = {name: field.default for name, field in type(self).model_fields.items()} | self._beside()
+        unusual = {name for name in self.model_fields_set if getattr(self, name) != usual[name]}
         return [
             f"{name} has no effect with {beside}"
             for name, (beside, without) in self._idle(walled).items()
@@ -80,6 +80,20 @@ class SchemeSettings(BaseModel):
     def accurate_step(self, duration: float) -> float:
         """The longest time step that resolves a run of a duration, where stability does not limit it."""
         return math.inf
+
+    def unmark(self, names: Iterable[str]) -> None:
+        """Settings that came along with others: nobody is told that one of them has no effect."""
+        self.__pydantic_fields_set__ -= set(names)
+
+    def _settle(self) -> None:
+        """Give what nobody named the value that goes with the others."""
+        for name, value in self._beside().items():
+            if name not in self.model_fields_set:
+                object.__setattr__(self, name, value)
+
+    def _beside(self) -> dict[str, Any]:
+        """The defaults that depend on other settings, as they are beside these."""
+        return {}
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         """The setting beside which another has no effect, and whether it is so."""

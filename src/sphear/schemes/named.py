@@ -38,7 +38,8 @@ def named(settings: Chosen) -> Chosen:
     if getattr(settings, "scheme", None) == "incompressible":  # which has its own, without aliases
         given.pop("wall_velocity")
     names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
-    return settings.model_copy(update=names)
+    changed = {key: name for key, name in names.items() if name != given[key]}  # others stay as nobody named them
+    return settings.model_copy(update=changed)
 
 
 def _said(key: str) -> str:

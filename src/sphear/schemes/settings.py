@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from pydantic import Field, model_validator
 
@@ -11,9 +11,15 @@ from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, SchemeSettings
 from sphear.schemes.objects import CorrectionSetting, EquationSetting, KernelSetting, Term, text
 
+DIFFUSION = 0.1  # delta
+
 
 class FlowSettings(SchemeSettings):
-    """The settings of a flow; the defaults are those of Basa, Quinlan & Lastiwka (2009), section 6.
+    """The settings of a flow; the defaults are what was found best (docs/flows.md).
+
+    They have second derivatives that are exact for quadratic fields, first ones for linear fields, a density that
+    diffusion keeps smooth, particles that shifting keeps regular. Where a setting that is named does not go with some
+    default, this gives way. The settings of Basa, Quinlan & Lastiwka (2009) are the preset `basa2009`.
 
     Attributes, beside those of all schemes:
         scheme: "explicit".
@@ -26,24 +32,28 @@ class FlowSettings(SchemeSettings):
         h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
         equation_of_state: "batchelor_tait", "linear" or "ideal_gas", or an object such as
             `BatchelorTait(rho0, c0, gamma)`, which has the density of the flow, and its speed of sound.
-        density: by "summation" (eq. 11) or by the "continuity" equation (eq. 10).
+        density: by "summation" (eq. 11) or by the "continuity" equation (eq. 10); the sum if nothing is said beside
+            momentum=squares and transport=transport_velocity.
         momentum: "squares" (eq. 8, of the summation), "products" (eq. 9, of the continuity equation) or None for the
             one that belongs to the density.
         pressure_reduction: "mean" subtracts the mean pressure of the neighbours (eq. 20), "hydrostatic" the pressure
             at rest (Morris et al. 1997), "none" nothing.
-        density_diffusion: delta of Molteni & Colagrossi (2009), 0.1 there; 0 leaves it out.
-        diffusion_form: "molteni", or "antuono" (2010), which takes out what the density's gradient explains.
+        density_diffusion: delta of Molteni & Colagrossi (2009), 0.1 there and of the continuity equation; 0 leaves it
+            out, and is that of density=summation.
+        diffusion_form: "molteni", that beside walls=adami and without diffusion, or "antuono" (2010), which takes out
+            what the density's gradient explains.
         walls: "mirror" particles, "fixed" ones with the fluid's velocity continued into them (section 6.2), or "adami".
         wall_velocity: how the velocity is continued into mirror or fixed particles.
         slip: mirror particles have the fluid's own velocity along the wall in the continuity equation, instead of the
-            one that is continued for the viscous term.
+            one that is continued for the viscous term; so they do if nothing is said, where there are both.
         wall_particles: particles with the wall's velocity on mirroring walls, one for each particle within a spacing.
         integrator: "midpoint", second-order Runge-Kutta, or "kick_drift_kick", with one evaluation a step.
-        transport: "none", "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al. 2013).
+        transport: "none", that of an ideal gas, "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al.
+            2013).
         shifting_strength: factor of the shifting.
         background_pressure: of the transport velocity, over density times squared sound speed.
-        sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %; of an ideal gas
-            it follows from `initial_pressure`.
+        sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %, and of 10 % in the
+            corners of slow flows; of an ideal gas it follows from `initial_pressure`.
         initial_pressure: of an ideal gas, 125 kPa in the paper.
 
     Raises:
@@ -51,22 +61,22 @@ class FlowSettings(SchemeSettings):
     """
 
     scheme: Literal["explicit"] = "explicit"
-    viscosity: Term = "morris"
-    correction: CorrectionSetting = "none"
-    kernel: KernelSetting = "cubic_spline"
+    viscosity: Term = "fatehi_manzari"
+    correction: CorrectionSetting = "bonet_lok"
+    kernel: KernelSetting = "wendland_c2"
     h_over_dx: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     equation_of_state: EquationSetting = "batchelor_tait"
-    density: Literal["summation", "continuity"] = "summation"
+    density: Literal["summation", "continuity"] = "continuity"
     momentum: Literal["squares", "products"] | None = None
-    pressure_reduction: Literal["mean", "hydrostatic", "none"] = "mean"
-    density_diffusion: float = Field(default=0.0, ge=0, allow_inf_nan=False)
-    diffusion_form: Literal["molteni", "antuono"] = "molteni"
+    pressure_reduction: Literal["mean", "hydrostatic", "none"] = "none"
+    density_diffusion: float = Field(default=DIFFUSION, ge=0, allow_inf_nan=False)
+    diffusion_form: Literal["molteni", "antuono"] = "antuono"
     walls: Literal["mirror", "fixed", "adami"] = "mirror"
-    wall_velocity: str = "linear"
-    slip: bool = False
+    wall_velocity: str = "quadratic"
+    slip: bool = True
     wall_particles: bool = False
     integrator: Literal["midpoint", "kick_drift_kick"] = "midpoint"
-    transport: Literal["none", "shifting", "transport_velocity"] = "none"
+    transport: Literal["none", "shifting", "transport_velocity"] = "shifting"
     shifting_strength: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     background_pressure: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     reynolds: float = Field(default=0.5, gt=0, allow_inf_nan=False)
@@ -85,6 +95,7 @@ class FlowSettings(SchemeSettings):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
+        self._settle()
         gas = self.gas
         contradictions = {
             f"density={self.density} and momentum={self.momentum} are not a variational pair (Bonet & Lok 1999), and"
@@ -115,6 +126,20 @@ class FlowSettings(SchemeSettings):
             if contradictory:
                 raise SphearError(sentence)
         return self
+
+    def _beside(self) -> dict[str, Any]:
+        summed = self.momentum == "squares" or self.transport == "transport_velocity"
+        density = self.density if "density" in self.model_fields_set else "summation" if summed else "continuity"
+        diffused = density == "continuity"
+        if "density_diffusion" in self.model_fields_set:
+            diffused = self.density_diffusion > 0
+        return {
+            "density": density,
+            "density_diffusion": DIFFUSION if density == "continuity" else 0.0,
+            "diffusion_form": "antuono" if diffused and self.walls != "adami" else "molteni",
+            "slip": density == "continuity" and self.walls == "mirror",
+            "transport": "none" if self.gas else "shifting",
+        }
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {

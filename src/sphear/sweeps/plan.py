@@ -96,6 +96,8 @@ def plan(
     over: Mapping[str, Sequence[Any]],
     fixed: Mapping[str, Any] | None = None,
     progress: Callable[[int, int], None] = no_progress,
+    *,
+    preset: str | None = None,
 ) -> list[Run]:
     """All combinations of values for some settings, on top of fixed ones; a run that comes up again is left out.
 
@@ -104,10 +106,11 @@ def plan(
         over: values by setting; the last setting changes fastest.
         fixed: settings that differ from the defaults of the case.
         progress: is told how many runs of how many are planned, now and then.
+        preset: the settings of a paper, behind all others.
 
     Raises:
         SphearError: a setting is unknown, wrong, without values, both fixed and gone through, or does not go with
-            the others; or there are more than `MOST` combinations.
+            the others; there is no such preset; or there are more than `MOST` combinations.
     """
     from sphear.cases.flow import FLOWS
     from sphear.cases.flow.chosen import flow_settings
@@ -124,7 +127,8 @@ def plan(
     runs: dict[str, Run] = {}
     costs = Costs()
     for number, values in enumerate(product(*over.values())):
-        run = Run(chosen.name, flow_settings(chosen, {**fixed, **dict(zip(over, values, strict=True))}))
+        changes = {**fixed, **dict(zip(over, values, strict=True))}
+        run = Run(chosen.name, flow_settings(chosen, changes, preset))
         if run.key not in runs:
             runs[run.key] = run
             run.__dict__["cost"] = costs.of(run.case, run.settings)  # refuses settings that do not go together

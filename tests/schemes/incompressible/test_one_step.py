@@ -18,25 +18,25 @@ from tests.schemes.incompressible.plain import Plain
 
 COUNT = 9
 STEP, STEPS = 0.002, 2
-MODERN = {"viscosity": "oger"}
-PAPER = preset_settings("paper", "incompressible")
+USUAL = {"viscosity": "oger"}
+PAPER = preset_settings("zheng2018", "incompressible")
 
 # what is set, and the sides of the box
 COMBINATIONS: list[tuple[str, str, dict[str, Any]]] = [
     ("paper", "cavity", PAPER),
     ("paper, channel", "channel", {**PAPER, "viscosity": "schwaiger", "alpha": 0.3}),
     ("paper, periodic", "periodic", {**PAPER, "viscosity": "morris"}),
-    ("modern", "cavity", MODERN),
-    ("modern, periodic", "periodic", {**MODERN, "alpha": 0.05}),
-    ("adami", "cavity", {**MODERN, "neumann": "adami", "wall_velocity": "mirror", "viscosity": "morris"}),
-    ("adami, channel", "channel", {**MODERN, "neumann": "adami", "slip": False, "alpha": 1.0, "laplacian": "oger"}),
-    ("natural", "cavity", {**MODERN, "neumann": "natural", "wall_velocity": "linear", "shifting": "xu"}),
-    ("natural, channel", "channel", {**MODERN, "neumann": "natural", "viscosity": "schwaiger", "laplacian": "oger"}),
+    ("usual", "cavity", USUAL),
+    ("usual, periodic", "periodic", {**USUAL, "alpha": 0.05}),
+    ("adami", "cavity", {**USUAL, "neumann": "adami", "wall_velocity": "mirror", "viscosity": "morris"}),
+    ("adami, channel", "channel", {**USUAL, "neumann": "adami", "slip": False, "alpha": 1.0, "laplacian": "oger"}),
+    ("natural", "cavity", {**USUAL, "neumann": "natural", "wall_velocity": "linear", "shifting": "xu"}),
+    ("natural, channel", "channel", {**USUAL, "neumann": "natural", "viscosity": "schwaiger", "laplacian": "oger"}),
     ("mirror points, symmetric", "channel", {**PAPER, "neumann": "mirror_points", "alpha": 0.0, "shifting": "xu"}),
-    ("mirror points, gotoh", "cavity", {**MODERN, "viscosity": "gotoh", "projection": "intermediate", "alpha": 0.2}),
-    ("other laplacians", "channel", {**MODERN, "laplacian": "schwaiger", "neumann": "sfdi", "wall_velocity": "linear"}),
-    ("laplacian of gotoh", "periodic", {**MODERN, "laplacian": "gotoh", "h_over_dx": 1.4}),
-    ("crank_nicolson", "cavity", {**MODERN, "viscosity": "morris", "viscous_step": "crank_nicolson"}),
+    ("mirror points, gotoh", "cavity", {**USUAL, "viscosity": "gotoh", "projection": "intermediate", "alpha": 0.2}),
+    ("other laplacians", "channel", {**USUAL, "laplacian": "schwaiger", "neumann": "sfdi", "wall_velocity": "linear"}),
+    ("laplacian of gotoh", "periodic", {**USUAL, "laplacian": "gotoh", "h_over_dx": 1.4}),
+    ("crank_nicolson", "cavity", {**USUAL, "viscosity": "morris", "viscous_step": "crank_nicolson"}),
     ("backward_euler", "channel", {**PAPER, "viscosity": "morris", "viscous_step": "backward_euler"}),
 ]
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from sphear.errors import SphearError, shortened
 from sphear.schemes.base import FlowInTime, Settings, settings_type
+from sphear.schemes.presets import BY_SCHEME, preset_settings
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
 
@@ -64,6 +65,7 @@ class FlowCase:
         headline: the metric that is drawn against time.
         known: that metric where others have it, times and values; None where nobody has.
         kinds: settings with more than the general ones, by scheme, where the case has any of its own.
+        presets: what a paper has otherwise for this case, by the name of the preset.
         horizon: when a run without `until` is expected to end, in the time unit; None if it has no end of its own.
     """
 
@@ -82,6 +84,7 @@ class FlowCase:
     known: Callable[[Settings], tuple[Array, Array] | None] = lambda settings: None
     horizon: float | None = None
     kinds: Mapping[str, type[Settings]] = field(default_factory=dict)
+    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def settings(self, **changes: Any) -> Settings:
         """The settings of this case with some changed.
@@ -104,6 +107,16 @@ class FlowCase:
                 f"{self.name} is computed by the scheme {' or '.join(self.defaults)}, not {shortened(scheme)}"
             )
         return self.kinds.get(scheme, general)
+
+    def preset(self, name: str, scheme: str) -> dict[str, Any]:
+        """The settings of a preset for this case.
+
+        Raises:
+            SphearError: there is none of that name for the scheme.
+        """
+        found = preset_settings(name, scheme)
+        found.update(self.presets.get(BY_SCHEME[scheme].name(name), {}))
+        return found
 
     def explicit(self, **changes: Any) -> FlowSettings:
         """The settings of this case for the explicit scheme, with some changed."""

@@ -180,16 +180,10 @@ def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Compa
 CAVITY = FlowCase(
     name="cavity",
     defaults={
-        "explicit": {
-            "reynolds": 100.0,
-            "resolution": 50,
-            "until": 20.0,
-            "walls": "fixed",
-            "wall_velocity": "quadratic",
-            "correction": "shepard",
-        },
+        "explicit": {"reynolds": 100.0, "resolution": 50, "until": 20.0},
         "incompressible": {"reynolds": 100.0, "resolution": 50, "until": 20.0},
     },
+    presets={"basa2009": {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}},  # section 6.2
     problem=problem,
     comparisons=comparisons,
     time_unit=lambda settings: SIDE / LID_SPEED,

@@ -10,7 +10,6 @@ from sphear.cases.flow.options import FlowOptions
 from sphear.cases.flow.run import FlowRun
 from sphear.checked import checked
 from sphear.schemes.base import unknown_setting
-from sphear.schemes.presets import preset_settings
 
 
 def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOptions]) -> FlowRun:
@@ -22,7 +21,8 @@ def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOpti
 
     Args:
         case: "poiseuille", "couette", "taylor-green", "cavity", "cavity-cylinder" or "dam-break".
-        preset: settings that belong together, "paper" or "modern"; those given by name go before them.
+        preset: the settings of a paper, "basa2009" of the explicit scheme, "zheng2018" of the incompressible one; those
+            given by name go before them. Without one they are the best that were found.
         settings: as `--set` of `sphear run` takes them, such as `scheme`, `viscosity`, `reynolds`, `resolution` and
             `until`; `sphear show case NAME` says what each means, what it may be and what it is by default. Viscous
             terms, kernels, corrections and equations of state are names or objects.
@@ -42,17 +42,18 @@ def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None
     Args:
         case: whose settings.
         changes: values by name.
-        preset: settings that belong together, behind those.
+        preset: the settings of a paper, behind those.
 
     Raises:
         SphearError: there is no such setting or preset, or a value is wrong.
     """
     scheme = str(changes.get("scheme", next(iter(case.defaults))))
-    if preset is not None:
-        changes = {**preset_settings(preset, scheme), **changes}
+    behind = {} if preset is None else case.preset(preset, scheme)
     known = case.kind(scheme).model_fields
     for key in changes:
         if key not in known:
             raise unknown_setting(key, known, scheme)
     with checked("the setting "):
-        return case.settings(**changes)
+        chosen = case.settings(**{**behind, **changes})
+    chosen.unmark(behind.keys() - changes.keys())
+    return chosen

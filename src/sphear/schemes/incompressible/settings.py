@@ -17,7 +17,7 @@ LEAST_STEPS = 100  # of a run by implicit viscous steps
 class IncompressibleSettings(SchemeSettings):
     """The settings of an incompressible flow; the defaults are what was found best (docs/incompressible.md).
 
-    Those of Zheng, Ma & Shao (2018) are the preset `paper`.
+    Those of Zheng, Ma & Shao (2018) are the preset `zheng2018`.
 
     Attributes, beside those of all schemes:
         scheme: "incompressible".

@@ -13,7 +13,7 @@ PARTICLES = 50  # a side
 def runs(quick: bool = False) -> list[Run]:
     """All runs, those of Re = 100 first; with `quick` one term at Re = 100 with fewer particles and for less long."""
     if quick:
-        return plan("cavity", {"viscosity": ("morris",)}, {"resolution": 20, "until": 2.0})
+        return plan("cavity", {"viscosity": ("morris",)}, {"resolution": 20, "until": 2.0}, preset="basa2009")
     return [
         run
         for reynolds, until in UNTIL.items()
@@ -21,5 +21,6 @@ def runs(quick: bool = False) -> list[Run]:
             "cavity",
             {"correction": CORRECTIONS, "viscosity": TERMS},
             {"reynolds": reynolds, "until": until, "resolution": PARTICLES},
+            preset="basa2009",
         )
     ]

@@ -10,6 +10,7 @@ from sphear.cases.flow.poiseuille import FAILED, HALF_WIDTH, POISEUILLE, referen
 from sphear.operators import arguments
 from sphear.results.table import Column, Table
 from sphear.schemes.base import FlowFailure
+from sphear.schemes.presets import PRESETS
 from sphear.schemes.settings import FlowSettings
 from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
 from sphear.studies.basa2009.channel import significant as kept
@@ -39,13 +40,8 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for reduction, reynolds in plan[:2] if quick else plan:
         progress(f"pressure reduction {reduction}, Re = {reynolds:g}")
-        settings = POISEUILLE.explicit(
-            viscosity="morris",
-            equation_of_state="ideal_gas",
-            pressure_reduction=reduction,
-            reynolds=reynolds,
-            resolution=resolution,
-        )
+        own = {"equation_of_state": "ideal_gas", "pressure_reduction": reduction}
+        settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own}, reynolds=reynolds, resolution=resolution)
         runs.append({"pressure_reduction": reduction, "reynolds": reynolds, **_run(settings, until)})
     return {"viscosity": "morris", "correction": "none", "resolution": resolution, "until": until, "runs": runs}
 

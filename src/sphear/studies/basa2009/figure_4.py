@@ -9,6 +9,7 @@ import numpy as np
 from sphear.cases.flow.poiseuille import HALF_WIDTH, POISEUILLE, reference
 from sphear.results.table import Column, Table
 from sphear.schemes.base import FlowFailure
+from sphear.schemes.presets import PRESETS
 from sphear.schemes.settings import FlowSettings
 from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
 from sphear.studies.basa2009.channel import significant as kept
@@ -38,15 +39,9 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for viscosity, correction, name, on_wall in plan[:2] if quick else plan:
         progress(f"{viscosity}, {name}{', wall particles' if on_wall else ''}")
-        settings = POISEUILLE.explicit(
-            viscosity=viscosity,
-            correction=correction,
-            equation_of_state="ideal_gas",
-            wall_velocity=name,
-            wall_particles=on_wall,
-            resolution=resolution,
-        )
         about = {"viscosity": viscosity, "correction": correction, "wall_velocity": name, "wall_particles": on_wall}
+        own = {**about, "equation_of_state": "ideal_gas"}
+        settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own}, resolution=resolution)
         runs.append({**about, **_run(settings, times)})
     return {"reynolds": settings.reynolds, "resolution": resolution, "shown": SHOWN, "near": NEAR, "runs": runs}
 

@@ -9,7 +9,7 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from sphear.results.table import Column, Table
-from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS, TERMS, modern_runs, runs
+from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS, TERMS, best_runs, runs
 from sphear.studies.basa2009.robustness_results import (
     Row,
     entries,
@@ -35,9 +35,9 @@ LEVELS = {"none": "no correction", "shepard": "level 0", "bonet_lok": "level 1"}
 
 def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     """Every run, in what is shown of it."""
-    modern = entries(swept(modern_runs(quick), "basa2009", workers, progress))
+    best = entries(swept(best_runs(quick), "basa2009", workers, progress))
     found = entries(swept(runs(quick), "basa2009", workers, progress))
-    return {**found, "modern_settings": modern["settings"], "modern": modern["runs"]}
+    return {**found, "best_settings": best["settings"], "best": best["runs"]}
 
 
 def present(data: dict[str, Any]) -> StudyResult:
@@ -45,14 +45,14 @@ def present(data: dict[str, Any]) -> StudyResult:
     rows: list[Row] = data["runs"]
     tables = [_table(rows, equation, correction) for equation, correction in _pairs(rows)]
     said, agrees = _finding(rows)
-    modern: list[Row] = data.get("modern", [])
-    if modern:
-        tables.append(_modern_table(modern))
-        steady = highest_steady(modern)
-        worst = max((row["rms_error"] for row in modern if outcome(row) == "steady"), default=math.inf)
-        said += f"; beyond the paper, the modern settings reach it up to Re = {steady:g}, errors at most"
+    best: list[Row] = data.get("best", [])
+    if best:
+        tables.append(_best_table(best))
+        steady = highest_steady(best)
+        worst = max((row["rms_error"] for row in best if outcome(row) == "steady"), default=math.inf)
+        said += f"; beyond the paper, the best settings reach it up to Re = {steady:g}, errors at most"
         said += f" {percent(worst)}"
-    return StudyResult(CLAIM, said, agrees, rows, tables, {"figure-5": lambda: _figure(rows, modern)})
+    return StudyResult(CLAIM, said, agrees, rows, tables, {"figure-5": lambda: _figure(rows, best)})
 
 
 def _pairs(rows: Sequence[Row]) -> list[tuple[str, str]]:
@@ -79,7 +79,7 @@ def _table(rows: Sequence[Row], equation: str, correction: str) -> Table:
     return Table(f"t* at which the channel fails: {LABELS[equation]}, {LEVELS[correction]}", columns, lines)
 
 
-def _modern_table(rows: Sequence[Row]) -> Table:
+def _best_table(rows: Sequence[Row]) -> Table:
     lines = [
         {"reynolds": row["reynolds"], "end": outcome(row), "time": row["time"], "rms_error": row["rms_error"]}
         for row in sorted(rows, key=lambda row: float(row["reynolds"]))
@@ -90,7 +90,7 @@ def _modern_table(rows: Sequence[Row]) -> Table:
         Column("time", "t*", ".3g"),
         Column("rms_error", "RMS error", ".2e"),
     )
-    return Table("Beyond the paper: the modern settings", columns, lines)
+    return Table("Beyond the paper: the best settings", columns, lines)
 
 
 def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
@@ -120,15 +120,15 @@ def _finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
     return said, "yes" if all(held) else "partly" if any(held) else "no"
 
 
-def _figure(rows: Sequence[Row], modern: Sequence[Row]) -> Figure:
+def _figure(rows: Sequence[Row], best: Sequence[Row]) -> Figure:
     from sphear.results.figure.robustness import Panel, robustness_panels
 
     panels = []
-    if modern:
-        name = modern[0]["viscosity"]
-        ends = [(row["reynolds"], row["time"], outcome(row)) for row in modern]
-        errors = [(t, e) for row in modern for t, e in row.get("history", []) if e]
-        panels.append(Panel("beyond the paper: modern settings", {name: ends}, {name: errors}))
+    if best:
+        name = best[0]["viscosity"]
+        ends = [(row["reynolds"], row["time"], outcome(row)) for row in best]
+        errors = [(t, e) for row in best for t, e in row.get("history", []) if e]
+        panels.append(Panel("beyond the paper: best settings", {name: ends}, {name: errors}))
     for equation, correction in _pairs(rows):
         mine = select(rows, equation_of_state=equation, correction=correction)
         panels.append(

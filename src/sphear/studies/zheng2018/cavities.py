@@ -1,8 +1,8 @@
 """The runs behind figures 7 to 14: the lid-driven cavity without and with a cylinder, with each viscous term.
 
-The scheme's default settings, and beside them the paper's own (the preset `paper`, with its time step), as they are and
-with particle shifting, which the paper does not have. Each run is kept as it ends, and one that is interrupted goes on
-from where it was saved last.
+The scheme's default settings, and beside them the paper's own (the preset `zheng2018`, with its time step), as they are
+and with particle shifting, which the paper does not have. Each run is kept as it ends, and one that is interrupted goes
+on from where it was saved last.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ QUICK_SIZES, QUICK_UNTIL = (20, 30), 4.0
 REYNOLDS, UNTIL = 1000.0, 40.0
 SLOW_REYNOLDS, SLOW_UNTIL, SLOW_SIZE = 100.0, 20.0, 50
 TIME_STEP = 0.001  # of the paper
-SHIFTED = "paper with shifting"
+DEFAULTS = "defaults"
+SHIFTED = "zheng2018 with shifting"
 DRAWN = "oger"  # the term whose fields are drawn
 POINTS = 40  # a side, where fields are sampled
 PARTICLES_DRAWN = (20, 30, 40, 100)  # sizes whose particles are kept
@@ -45,7 +46,7 @@ class Wanted(NamedTuple):
     resolution: particles a side.
     reynolds: of the lid.
     until: when it ends.
-    preset: "modern", the scheme's defaults, "paper", or `SHIFTED`, those with particle shifting.
+    preset: `DEFAULTS`, those of the scheme, "zheng2018", or `SHIFTED`, those with particle shifting.
     """
 
     case: str
@@ -53,18 +54,17 @@ class Wanted(NamedTuple):
     resolution: int
     reynolds: float = REYNOLDS
     until: float = UNTIL
-    preset: str = "modern"
+    preset: str = DEFAULTS
 
     def run(self) -> Run:
         """The run, its settings checked."""
-        from sphear.schemes.presets import preset_settings
         from sphear.sweeps import plan
 
-        own: dict[str, Any] = {} if self.preset == "modern" else {"time_step": TIME_STEP}
+        preset = None if self.preset == DEFAULTS else PAPER
+        own: dict[str, Any] = {"time_step": TIME_STEP} if preset else {}
         own |= {"shifting": "lind", "shifting_strength": 1.0} if self.preset == SHIFTED else {}
         named = {key: getattr(self, key) for key in ("viscosity", "resolution", "reynolds", "until")}
-        settings = {**preset_settings(self.preset.partition(" ")[0], "incompressible"), **own, **named}
-        return plan(self.case, {}, {"scheme": "incompressible", **settings})[0]
+        return plan(self.case, {}, {"scheme": "incompressible", **own, **named}, preset=preset)[0]
 
 
 def wanted(case: str, quick: bool = False) -> list[Wanted]:
@@ -73,7 +73,7 @@ def wanted(case: str, quick: bool = False) -> list[Wanted]:
         return [Wanted(case, term, size, until=QUICK_UNTIL) for size in QUICK_SIZES for term in TERMS]
     runs = [Wanted(case, term, size) for size in SIZES for term in TERMS]
     own = PAPER_TERMS.values() if case == "cavity" else (DRAWN,)
-    runs += [Wanted(case, term, size, preset="paper") for size in OWN_SIZES for term in own]
+    runs += [Wanted(case, term, size, preset=PAPER) for size in OWN_SIZES for term in own]
     runs += [Wanted(case, DRAWN, size, preset=SHIFTED) for size in OWN_SIZES]
     if case == "cavity":
         runs += [Wanted(case, term, SLOW_SIZE, SLOW_REYNOLDS, SLOW_UNTIL) for term in TERMS]

@@ -10,7 +10,7 @@ import numpy as np
 
 from sphear.references.cavity import botella_peyret, ghia
 from sphear.studies.result import Agreement, StudyResult
-from sphear.studies.zheng2018.cavities import DRAWN, REYNOLDS, SLOW_REYNOLDS, UNTIL
+from sphear.studies.zheng2018.cavities import DEFAULTS, DRAWN, REYNOLDS, SLOW_REYNOLDS, UNTIL
 from sphear.studies.zheng2018.cavity_magnitude import LINES, meshes
 from sphear.studies.zheng2018.cavity_rows import Row, curves, select
 from sphear.studies.zheng2018.cavity_shown import (
@@ -105,7 +105,7 @@ def _spread(data: Data, rows: list[Row]) -> float:
 
 def _slow(data: Data) -> str:
     """The deviations at Re = 100."""
-    rows = ended(select(data["runs"], preset="modern", reynolds=SLOW_REYNOLDS))
+    rows = ended(select(data["runs"], preset=DEFAULTS, reynolds=SLOW_REYNOLDS))
     if not values(rows, "deviation", ".4f"):
         return ""
     first = rows[0]

@@ -11,7 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphear.references.cavity import CavityFlow, Curve, cavity_cylinder, ghia, mac
-from sphear.studies.zheng2018.cavities import QUICK_SIZES, QUICK_UNTIL, REYNOLDS, SIZES, TERMS, UNTIL, Wanted, wanted
+from sphear.studies.zheng2018.cavities import (
+    DEFAULTS,
+    QUICK_SIZES,
+    QUICK_UNTIL,
+    REYNOLDS,
+    SIZES,
+    TERMS,
+    UNTIL,
+    Wanted,
+    wanted,
+)
 
 if TYPE_CHECKING:
     from sphear.sweeps import SweepResult
@@ -81,7 +91,7 @@ def row_of(each: Wanted, result: SweepResult) -> Row:
     fields = ("field_", "particles_")
     lines = {name: values for name, values in result.profiles.items() if not name.startswith(fields)}
     row["profiles"] = {name: [_short(x) for x in values] for name, values in lines.items()}
-    if each.preset == "modern" and each.reynolds == REYNOLDS:  # others are not drawn
+    if each.preset == DEFAULTS and each.reynolds == REYNOLDS:  # others are not drawn
         row |= {name: values for name, values in result.profiles.items() if name.startswith(fields)}
     return row | scores(each.case, row)
 

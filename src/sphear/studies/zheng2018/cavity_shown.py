@@ -11,7 +11,7 @@ from sphear.references.cavity import CavityFlow, Curve
 from sphear.references.zheng2018 import TERMS as LABELS
 from sphear.results.table import Column, Table
 from sphear.studies.result import Agreement
-from sphear.studies.zheng2018.cavities import OWN_SIZES, REYNOLDS, SHIFTED
+from sphear.studies.zheng2018.cavities import DEFAULTS, OWN_SIZES, PAPER, REYNOLDS, SHIFTED
 from sphear.studies.zheng2018.cavity_rows import Row, failed, reference, select
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ NOTHING = "not computed"
 
 def main_rows(data: Data) -> list[Row]:
     """The runs at Re = 1000 with the scheme's defaults."""
-    return select(data["runs"], preset="modern", reynolds=REYNOLDS)
+    return select(data["runs"], preset=DEFAULTS, reynolds=REYNOLDS)
 
 
 def ended(rows: Sequence[Row]) -> list[Row]:
@@ -66,7 +66,7 @@ def lacking(data: Data) -> str:
 def own_settings(data: Data) -> str:
     """How the runs with the paper's own settings ended, and with shifting added; empty if none was computed."""
     parts = []
-    if rows := select(data["runs"], preset="paper"):
+    if rows := select(data["runs"], preset=PAPER):
         parts.append(f"with the paper's own settings{_sizes(rows)} {_failures(rows)}")
     if rows := select(data["runs"], preset=SHIFTED):
         scored = ", ".join(
@@ -156,7 +156,7 @@ def score_table(data: Data) -> Table:
         {
             **row,
             "label": label.get(row["viscosity"]),
-            "settings": {"modern": "defaults", "paper": "the paper's"}.get(row["preset"], "with shifting"),
+            "settings": {DEFAULTS: "defaults", PAPER: "the paper's"}.get(row["preset"], "with shifting"),
             "how": f"failed at t = {row['time']:.3g}" if failed(row) else f"t = {row['time']:.3g}",
             "kinetic_energy_error": None if failed(row) else row.get("kinetic_energy_error"),
         }

@@ -149,7 +149,7 @@ def _readings() -> Table:
     ]
     columns = (
         Column("reading", "reading"),
-        Column("changes", "what differs from the preset `paper`"),
+        Column("changes", "what differs from the preset `zheng2018`"),
         Column("as_stated", "within the text"),
         Column("why", "why"),
     )

@@ -1,4 +1,4 @@
-"""Readings of the settings of Zheng, Ma & Shao 2018: the preset `paper` and what may be meant otherwise."""
+"""Readings of the settings of Zheng, Ma & Shao 2018: the preset `zheng2018` and what may be meant otherwise."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ class Reading(NamedTuple):
     """A combination of settings near those of the paper.
 
     name: short.
-    changes: settings that differ from the preset `paper` with the paper's time step.
+    changes: settings that differ from the preset `zheng2018` with the paper's time step.
     why: it may be what the paper has.
     stated: whether all that the paper states is kept: what changes is open there.
     """

@@ -75,9 +75,9 @@ def predicted(row: dict[str, Any]) -> float | None:
     """
     from sphear.operators import arguments
     from sphear.schemes.presets import preset_settings
-    from sphear.studies.zheng2018.cavities import REYNOLDS
+    from sphear.studies.zheng2018.cavities import PAPER, REYNOLDS
 
-    settings = {**preset_settings("paper", "incompressible"), "pressure_level": "free", **row["changes"]}
+    settings = {**preset_settings(PAPER, "incompressible"), "pressure_level": "free", **row["changes"]}
     if settings["gradient"] != "symmetric" or settings["pressure_level"] != "free" or row["least_pressure"] is None:
         return None
     spacing = 1.0 / row["resolution"]

@@ -34,18 +34,16 @@ class Tried(NamedTuple):
 
     def run(self) -> Run:
         """The run, its settings checked."""
-        from sphear.schemes.presets import preset_settings
         from sphear.sweeps import plan
 
         settings = {
-            **preset_settings("paper", "incompressible"),
             "time_step": TIME_STEP,
             **BY_NAME[self.reading].changes,
             "reynolds": REYNOLDS,
             "resolution": self.resolution,
             "until": self.until,
         }
-        return plan(CASE, {}, {"scheme": "incompressible", **settings})[0]
+        return plan(CASE, {}, {"scheme": "incompressible", **settings}, preset=PAPER)[0]
 
 
 def tried(quick: bool = False) -> list[Tried]:

@@ -1,4 +1,4 @@
-"""What the modern settings give, beside exact solutions and a fine grid."""
+"""What the best settings, the defaults, give, beside exact solutions and a fine grid."""
 
 from __future__ import annotations
 
@@ -10,19 +10,18 @@ import numpy as np
 import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
-from sphear.schemes.presets import PRESETS
 
 Array = np.ndarray[Any, Any]
 
 
 @cache
-def modern(case: str, **settings: Any) -> FlowRun:
-    return FlowRun(FLOWS[case], FLOWS[case].settings(**PRESETS["modern"], **settings)).run()
+def best(case: str, **settings: Any) -> FlowRun:
+    return FlowRun(FLOWS[case], FLOWS[case].settings(**settings)).run()
 
 
 def test_the_channel_is_a_hundred_times_as_accurate_as_with_the_papers_settings() -> None:
     """Morris' term has 2 % there; these have 0.009 %."""
-    done = modern("poiseuille", reynolds=0.5, resolution=20, until=5.0)
+    done = best("poiseuille", reynolds=0.5, resolution=20, until=5.0)
     assert done.end == "time"
     assert done.history[-1]["time"] == pytest.approx(5.0, rel=1e-2)
     assert done.history[-1]["rms_error"] < 2e-4
@@ -30,13 +29,13 @@ def test_the_channel_is_a_hundred_times_as_accurate_as_with_the_papers_settings(
 
 def test_vortices_keep_their_energy() -> None:
     """Within 0.5 %, of which sound waves from the start without pressure carry most to and fro: measured 0.25 %."""
-    done = modern("taylor-green", resolution=30, until=0.2)
+    done = best("taylor-green", resolution=30, until=0.2)
     assert done.history[-1]["kinetic_energy_ratio"] == pytest.approx(1.0, abs=5e-3)
 
 
 def error(resolution: int) -> float:
     """Of the energy in the cavity when the layer below the lid is sqrt(nu t) = 0.07 thick."""
-    done = modern("cavity", reynolds=100.0, resolution=resolution, until=0.5)
+    done = best("cavity", reynolds=100.0, resolution=resolution, until=0.5)
     assert done.end == "time"
     return done.history[-1]["kinetic_energy_error"]
 
@@ -50,7 +49,7 @@ def test_the_energy_in_the_cavity_follows_the_fine_grid_once_the_layer_is_resolv
 
 
 def test_nothing_in_the_cavity_is_faster_than_its_lid() -> None:
-    assert np.hypot(*modern("cavity", reynolds=100.0, resolution=16, until=0.5).flow.velocities.T).max() < 1.0
+    assert np.hypot(*best("cavity", reynolds=100.0, resolution=16, until=0.5).flow.velocities.T).max() < 1.0
 
 
 def wendland(q: Array) -> Array:

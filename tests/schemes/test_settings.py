@@ -1,0 +1,178 @@
+"""The defaults of an explicit flow, what becomes of them beside settings that are named, and the papers' presets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+import sphear
+from sphear.equations_of_state import BatchelorTait, IdealGas
+from sphear.errors import SphearError
+from sphear.schemes.presets import BY_SCHEME
+from sphear.schemes.settings import FlowSettings
+
+BEST: dict[str, Any] = {
+    "viscosity": "fatehi_manzari", "correction": "bonet_lok", "kernel": "wendland_c2", "h_over_dx": None,
+    "equation_of_state": "batchelor_tait", "density": "continuity", "momentum": None, "pressure_reduction": "none",
+    "density_diffusion": 0.1, "diffusion_form": "antuono", "walls": "mirror", "wall_velocity": "quadratic",
+    "slip": True, "wall_particles": False, "integrator": "midpoint", "transport": "shifting",
+}  # fmt: skip
+SUMMED: dict[str, Any] = {
+    "density": "summation", "density_diffusion": 0.0, "diffusion_form": "molteni", "slip": False,
+}  # fmt: skip
+
+# a setting that is named, its value, and what others become that nobody named
+BESIDE: list[tuple[str, Any, dict[str, Any]]] = [
+    ("viscosity", "morris", {}),
+    ("correction", "none", {}),
+    ("kernel", "cubic_spline", {}),
+    ("equation_of_state", "batchelor_tait", {}),
+    ("equation_of_state", "linear", {}),
+    ("equation_of_state", BatchelorTait(1000.0, 10.0, 7), {}),
+    ("equation_of_state", "ideal_gas", {"transport": "none"}),
+    ("equation_of_state", IdealGas(1.6), {"transport": "none"}),
+    ("density", "continuity", {}),
+    ("density", "summation", SUMMED),
+    ("momentum", None, {}),
+    ("momentum", "products", {}),
+    ("momentum", "squares", SUMMED),
+    ("pressure_reduction", "none", {}),
+    ("pressure_reduction", "mean", {}),
+    ("pressure_reduction", "hydrostatic", {}),
+    ("density_diffusion", 0.2, {}),
+    ("density_diffusion", 0.0, {"diffusion_form": "molteni"}),
+    ("diffusion_form", "antuono", {}),
+    ("diffusion_form", "molteni", {}),
+    ("walls", "mirror", {}),
+    ("walls", "fixed", {"slip": False}),
+    ("walls", "adami", {"slip": False, "diffusion_form": "molteni"}),
+    ("wall_velocity", "linear", {}),
+    ("slip", True, {}),
+    ("slip", False, {}),
+    ("wall_particles", True, {}),
+    ("wall_particles", False, {}),
+    ("integrator", "midpoint", {}),
+    ("integrator", "kick_drift_kick", {}),
+    ("transport", "none", {}),
+    ("transport", "shifting", {}),
+    ("transport", "transport_velocity", SUMMED),
+    ("sound_speed", 20.0, {}),
+]
+
+
+def test_the_defaults_are_the_best_settings() -> None:
+    assert {name: getattr(FlowSettings(), name) for name in BEST} == BEST
+
+
+@pytest.mark.parametrize("case", ["poiseuille", "couette", "taylor-green", "cavity"])
+def test_a_flow_without_a_preset_has_the_best_settings(case: str) -> None:
+    settings = sphear.flow(case, resolution=12).settings
+    assert {name: getattr(settings, name) for name in BEST} == BEST
+
+
+@pytest.mark.parametrize(("name", "value", "others"), BESIDE, ids=lambda x: "" if isinstance(x, dict) else str(x))
+def test_defaults_give_way_to_what_is_named(name: str, value: Any, others: dict[str, Any]) -> None:
+    settings = FlowSettings(**{name: value})
+    assert {key: getattr(settings, key) for key in BEST} | {name: value} == {**BEST, **others, name: value}
+    assert settings.model_fields_set == {name}
+    assert settings.without_effect(walled=True) == []
+
+
+@pytest.mark.parametrize(("name", "value", "others"), BESIDE, ids=lambda x: "" if isinstance(x, dict) else str(x))
+def test_settings_written_down_and_read_again_are_the_same(name: str, value: Any, others: dict[str, Any]) -> None:
+    settings = FlowSettings(**{name: value})
+    written = settings.model_dump() | {name: value}  # objects are not written down
+    again = FlowSettings(**written)
+    assert again == settings
+    assert again.without_effect(walled=True) == []
+    named = FlowSettings(**{key: written[key] for key in settings.model_fields_set})
+    assert named == settings
+    assert named.model_fields_set == settings.model_fields_set
+
+
+def test_every_choice_is_tried_alone() -> None:
+    tried = {(name, value) for name, value, _ in BESIDE if isinstance(value, str | None)}
+    choices: dict[str, tuple[str, ...]] = {
+        "density": ("summation", "continuity"),
+        "momentum": ("squares", "products"),
+        "pressure_reduction": ("mean", "hydrostatic", "none"),
+        "diffusion_form": ("molteni", "antuono"),
+        "walls": ("mirror", "fixed", "adami"),
+        "integrator": ("midpoint", "kick_drift_kick"),
+        "transport": ("none", "shifting", "transport_velocity"),
+        "equation_of_state": ("batchelor_tait", "linear", "ideal_gas"),
+    }
+    assert {(name, value) for name, values in choices.items() for value in values} <= tried
+
+
+@pytest.mark.parametrize(
+    ("named", "sentence"),
+    [
+        ({"density": "summation", "slip": True}, "slip is about the continuity equation beside mirrors"),
+        ({"walls": "fixed", "slip": True}, "and not for density=continuity with walls=fixed"),
+        ({"walls": "adami", "diffusion_form": "antuono"}, "antuono needs density gradients in the walls"),
+        ({"momentum": "squares", "density_diffusion": 0.1}, "density=summation has none"),
+        ({"transport": "transport_velocity", "density": "continuity"}, "not for density=continuity"),
+        ({"transport": "shifting", "equation_of_state": "ideal_gas"}, "take transport=none"),
+    ],
+)
+def test_settings_that_are_named_do_not_give_way(named: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(SphearError, match=sentence):
+        FlowSettings(**named)
+
+
+PAPERS: dict[str, tuple[str, dict[str, Any]]] = {
+    "basa2009": (
+        "explicit",
+        {
+            "viscosity": "morris", "correction": "none", "kernel": "cubic_spline", "h_over_dx": None,
+            "equation_of_state": "batchelor_tait", "density": "summation", "momentum": None,
+            "pressure_reduction": "mean", "density_diffusion": 0.0, "diffusion_form": "molteni", "walls": "mirror",
+            "wall_velocity": "linear", "slip": False, "wall_particles": False, "integrator": "midpoint",
+            "transport": "none",
+        },
+    ),
+    "zheng2018": (
+        "incompressible",
+        {
+            "viscosity": "oger", "kernel": "cubic_spline", "h_over_dx": 1.2, "gradient": "symmetric",
+            "gradient_correction": "none", "laplacian": "morris", "alpha": 0.01, "projection": "intermediate",
+            "neumann": "sfdi", "wall_velocity": "mirror", "slip": False, "shifting": "none",
+        },
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("preset", PAPERS)
+def test_a_preset_has_the_settings_of_its_paper(preset: str) -> None:
+    scheme, settings = PAPERS[preset]
+    assert list(BY_SCHEME[scheme]) == [preset]
+    found = sphear.flow("poiseuille", scheme=scheme, preset=preset, resolution=12).settings
+    assert {name: getattr(found, name) for name in settings} == settings
+
+
+def test_the_papers_cavity_has_its_own_walls() -> None:
+    """Section 6.2: fixed particles, and results with level 0."""
+    found = sphear.flow("cavity", preset="basa2009", resolution=12).settings.model_dump()
+    walls = {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}
+    assert {name: found[name] for name in BEST} == {**PAPERS["basa2009"][1], **walls}
+
+
+@pytest.mark.parametrize("case", ["taylor-green", "poiseuille"])
+def test_nobody_is_told_that_a_part_of_a_preset_has_no_effect(case: str) -> None:
+    run = sphear.flow(case, preset="basa2009", walls="adami", resolution=12)
+    assert run.settings.without_effect(run.flow.problem.walled) == []
+
+
+@pytest.mark.parametrize(
+    ("preset", "scheme", "allowed"),
+    [
+        ("modern", "explicit", "basa2009"),
+        ("paper", "incompressible", "zheng2018"),
+        ("basa2009", "incompressible", "zheng2018"),
+    ],
+)
+def test_a_preset_that_a_scheme_has_not_is_refused_with_those_it_has(preset: str, scheme: str, allowed: str) -> None:
+    with pytest.raises(SphearError, match=rf"^there is no preset named '{preset}': .*preset is one of {allowed}$"):
+        sphear.flow("cavity", scheme=scheme, preset=preset)
