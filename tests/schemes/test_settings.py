@@ -82,7 +82,7 @@ def test_defaults_give_way_to_what_is_named(name: str, value: Any, others: dict[
 @pytest.mark.parametrize(("name", "value", "others"), BESIDE, ids=lambda x: "" if isinstance(x, dict) else str(x))
 def test_settings_written_down_and_read_again_are_the_same(name: str, value: Any, others: dict[str, Any]) -> None:
     settings = FlowSettings(**{name: value})
-    written = settings.model_dump() | {name: value}  # objects are not written down
+    written = settings.model_dump(exclude={name}) | {name: value}  # an object is no text
     again = FlowSettings(**written)
     assert again == settings
     assert again.without_effect(walled=True) == []

@@ -87,12 +87,12 @@ class SchemeSettings(BaseModel):
 
     def _settle(self) -> None:
         """Give what nobody named the value that goes with the others."""
-        for name, value in self._beside().items():
+        for name in self._beside():
             if name not in self.model_fields_set:
-                object.__setattr__(self, name, value)
+                object.__setattr__(self, name, self._beside()[name])  # beside those that are settled
 
     def _beside(self) -> dict[str, Any]:
-        """The defaults that depend on other settings, as they are beside these."""
+        """The defaults that depend on other settings, as they are beside these; each on what comes before it."""
         return {}
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:

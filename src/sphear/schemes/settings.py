@@ -129,15 +129,11 @@ class FlowSettings(SchemeSettings):
 
     def _beside(self) -> dict[str, Any]:
         summed = self.momentum == "squares" or self.transport == "transport_velocity"
-        density = self.density if "density" in self.model_fields_set else "summation" if summed else "continuity"
-        diffused = density == "continuity"
-        if "density_diffusion" in self.model_fields_set:
-            diffused = self.density_diffusion > 0
         return {
-            "density": density,
-            "density_diffusion": DIFFUSION if density == "continuity" else 0.0,
-            "diffusion_form": "antuono" if diffused and self.walls != "adami" else "molteni",
-            "slip": density == "continuity" and self.walls == "mirror",
+            "density": "summation" if summed else "continuity",
+            "density_diffusion": DIFFUSION if self.density == "continuity" else 0.0,
+            "diffusion_form": "antuono" if self.density_diffusion > 0 and self.walls != "adami" else "molteni",
+            "slip": self.density == "continuity" and self.walls == "mirror",
             "transport": "none" if self.gas else "shifting",
         }
 
