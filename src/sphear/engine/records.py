@@ -138,12 +138,13 @@ def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any
     return memory[offset : offset + entries * columns * item].view(dtype).reshape(entries, columns)
 
 
-def pack(records: np.ndarray[Any, Any], column: int, values: np.ndarray[Any, Any], source: np.ndarray[Any, Any]) -> int:
-    """Copy the field `values`, (N,) or (N, k), into the records from `column` on; returns the next free column."""
+def pack(
+    records: np.ndarray[Any, Any], column: int, values: np.ndarray[Any, Any], source: np.ndarray[Any, Any]
+) -> None:
+    """Copy the field `values`, (N,) or (N, k), into the records from `column` on."""
     if values.ndim == 1:
         values = values[:, None]
     _pack(records, column, values, source, 0, len(records))
-    return column + values.shape[1]
 
 
 def pack_positions(records: np.ndarray[Any, Any], coordinates: np.ndarray[Any, Any]) -> None:
