@@ -22,7 +22,7 @@ from typing import Any
 
 KEPT = Path(__file__).with_suffix(".json")
 RESOLUTIONS = (13, 17, 19, 23, 29, 37, 43, 53)
-FEW = (13, 29, 53)  # resolutions of what is neither default nor a preset
+FEW = (13, 29)  # resolutions of what is neither default nor a preset
 REYNOLDS = (1e-3, 1.0, 100.0, 1e3, 1e4, 1e5)
 STEPS = {"explicit": 4000, "incompressible": 250}
 OUTPUTS = 12  # of a run, at which it is looked at
