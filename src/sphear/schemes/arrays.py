@@ -13,7 +13,7 @@ from sphear.kernels import Kernel
 from sphear.neighbours.pair_list import selection_table_once
 from sphear.schemes.formulas import Formulas
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.settings import WeaklyCompressible
 from sphear.schemes.state import Change, Fields, Numbers, Space
 
 Array = np.ndarray[Any, Any]
@@ -37,7 +37,7 @@ class Arrays(NamedTuple):
 
 
 def arrays(
-    settings: FlowSettings, problem: Problem, formulas: Formulas, kernel: Kernel, energy_at_rest: float
+    settings: WeaklyCompressible, problem: Problem, formulas: Formulas, kernel: Kernel, energy_at_rest: float
 ) -> Arrays:
     """The start of a flow.
 

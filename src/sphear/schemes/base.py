@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.names import unknown
 from sphear.schemes.checks import check_connected, check_places
-from sphear.schemes.incompressible.settings import IncompressibleSettings
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.common import Scheme
+from sphear.schemes.incompressible.settings import Incompressible, IncompressibleSettings
+from sphear.schemes.settings import FlowSettings, WeaklyCompressible
 
 if TYPE_CHECKING:
     from sphear.kernels import Kernel
@@ -122,28 +123,30 @@ def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearEr
     return unknown("setting", key, known)
 
 
-def flow_in_time(problem: Problem, settings: Settings, duration: float = math.inf) -> FlowInTime:
-    """The flow of a problem by the scheme of the settings.
+def flow_in_time(problem: Problem, scheme: Scheme, duration: float = math.inf) -> FlowInTime:
+    """The flow of a problem by a scheme.
 
     Args:
         problem: what is to be computed.
-        settings: how.
+        scheme: how.
         duration: for how long, where that is known; implicit viscous steps resolve it.
 
     Raises:
         SphearError: they do not go together.
     """
-    if settings.scheme == "incompressible":
+    if isinstance(scheme, Incompressible):
         from sphear.schemes.incompressible.flow import IncompressibleFlow
 
-        return IncompressibleFlow(problem, settings, duration)
+        return IncompressibleFlow(problem, scheme, duration)
+    if not isinstance(scheme, WeaklyCompressible):
+        raise SphearError(f"a flow is computed by WeaklyCompressible or Incompressible, not by {quoted(scheme)}")
     from sphear.schemes.flow import Flow
 
     if problem.shape is not None or problem.free_surface:
         raise SphearError("the explicit scheme knows the walls of boxes only: take scheme=incompressible")
     if problem.force is not None:
         raise SphearError("the explicit scheme knows constant body forces only: take scheme=incompressible")
-    return Flow(problem, settings)
+    return Flow(problem, scheme)
 
 
 def check_start(problem: Problem) -> None:
@@ -164,7 +167,13 @@ def check_state(state: Mapping[str, Array], own: Mapping[str, Array]) -> None:
             raise SphearError(f"the saved state has no {name} of the shape {values.shape}: it is of another flow")
 
 
-def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
+def fineness(problem: Problem, scheme: Scheme) -> str:
+    """The resolution of a case, or the spacing of another flow, in words."""
+    resolution = getattr(scheme, "resolution", None)
+    return f"the spacing of {problem.spacing:g}" if resolution is None else f"the resolution of {resolution}"
+
+
+def check_kernel(problem: Problem, kernel: Kernel, scheme: Scheme) -> None:
     """Refuse a kernel that reaches no neighbour, or further than a period, or not from part to part of the fluid."""
     if kernel.radius <= problem.spacing:
         raise SphearError(
@@ -174,14 +183,14 @@ def check_kernel(problem: Problem, kernel: Kernel, resolution: int) -> None:
     for low, high, periodic in zip(problem.box.lower, problem.box.upper, problem.periodic, strict=True):
         if periodic and kernel.radius > high - low:
             raise SphearError(
-                f"the resolution of {resolution} is too coarse: the kernel's support of {kernel.radius:g} reaches"
+                f"{fineness(problem, scheme)} is too coarse: the kernel's support of {kernel.radius:g} reaches"
                 f" beyond the period of {high - low:g}"
             )
     if problem.shape is not None and not problem.free_surface:
         check_connected(problem, kernel.radius)
 
 
-def chosen_time_step(limits: dict[str, float], settings: Settings, duration: float = math.inf) -> float:
+def chosen_time_step(limits: dict[str, float], settings: Scheme, duration: float = math.inf) -> float:
     """The least of the limits, and short enough to resolve a run of a duration; or the one asked for.
 
     Raises:

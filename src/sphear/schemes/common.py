@@ -1,4 +1,4 @@
-"""What can be chosen of a flow by any scheme."""
+"""Choices that all schemes have, and those of a run."""
 
 from __future__ import annotations
 
@@ -11,57 +11,61 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 from sphear.checked import checked
 from sphear.errors import SphearError
 from sphear.names import unknown
+from sphear.schemes.objects import text
 
 LEAST_REYNOLDS, LARGEST_REYNOLDS = 1e-100, 1e100  # beyond, squares vanish or overflow
 OPEN = "no walls"
 
 
-class SchemeSettings(BaseModel):
-    """The settings that all schemes have.
-
-    Attributes:
-        initial: "lattice", "staggered" (every other row by half a spacing) or "relaxed" (disordered, then settled).
-        seed: of the disorder.
-        reynolds: as the case defines it.
-        resolution: particles across the flow.
-        until: when to stop, in the time unit of the case; None where the case says.
-        max_steps: stop after so many steps.
-        time_step: None takes the least of the limits.
-        force: take a time step beyond its limit all the same.
-        threads: that a run computes on; None takes all processors for large flows, one for small.
+class Choices(BaseModel):
+    """Named choices, each checked: an unknown or wrong one is told in one sentence.
 
     Raises:
-        SphearError: a setting is unknown or wrong.
+        SphearError: a choice is unknown or wrong.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    initial: Literal["lattice", "staggered", "relaxed"] = "lattice"
-    seed: int = Field(default=0, ge=0)
-    reynolds: float = Field(default=1.0, gt=0, allow_inf_nan=False)
-    resolution: int = Field(default=20, ge=1)
-    until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    max_steps: int = Field(default=500_000, ge=1)
-    time_step: float | None = Field(default=None, gt=0, allow_inf_nan=False)
-    force: bool = False
-    threads: int | None = Field(default=None, ge=1)
-
-    def __init__(self, **settings: Any) -> None:
+    def __init__(self, **choices: Any) -> None:
         known = type(self).model_fields
-        for key in settings:
+        for key in choices:
             if key not in known:
                 raise unknown("setting", key, known)
         with checked("the setting "):
-            super().__init__(**settings)
+            super().__init__(**choices)
 
-    @field_validator("reynolds", mode="after")
-    @classmethod
-    def _within_range(cls, reynolds: float) -> float:
-        if not LEAST_REYNOLDS <= reynolds <= LARGEST_REYNOLDS:
-            raise SphearError(
-                f"the setting reynolds should be from {LEAST_REYNOLDS:g} to {LARGEST_REYNOLDS:g}, not {reynolds:g}"
-            )
-        return reynolds
+
+class Scheme(Choices):
+    """The numerics that all schemes have.
+
+    Attributes:
+        time_step: None takes the least of the limits.
+        force: take a time step beyond its limit all the same.
+        threads: that a run computes on; None takes all processors for large flows, one for small.
+        seed: of all that is random: disorder of the start, unevenness on lines that are stretched.
+
+    Raises:
+        SphearError: a choice is unknown or wrong.
+    """
+
+    time_step: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    force: bool = False
+    threads: int | None = Field(default=None, ge=1)
+    seed: int = Field(default=0, ge=0)
+
+    def __str__(self) -> str:
+        """The scheme with what differs from its defaults, as it is written in a program."""
+        usual = self._usual()
+        changed = {name: value for name, value in self if value != usual[name]}
+        chosen = [
+            f"{name}={value!r}" if isinstance(value, str) else f"{name}={text(value)}"
+            for name, value in changed.items()
+        ]
+        return f"{type(self).__name__}({', '.join(chosen)})"
+
+    def _usual(self) -> dict[str, Any]:
+        """The defaults, as they are beside these choices."""
+        return {name: field.default for name, field in type(self).model_fields.items()} | self._beside()
 
     def without_effect(self, walled: bool) -> list[str]:
         """What was chosen, not as usual, and changes nothing beside the other settings; a sentence each.
@@ -69,7 +73,7 @@ class SchemeSettings(BaseModel):
         Args:
             walled: whether the flow has walls.
         """
-        usual = {name: field.default for name, field in type(self).model_fields.items()} | self._beside()
+        usual = self._usual()
         unusual = {name for name in self.model_fields_set if getattr(self, name) != usual[name]}
         return [
             f"{name} has no effect with {beside}"
@@ -98,3 +102,33 @@ class SchemeSettings(BaseModel):
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         """The setting beside which another has no effect, and whether it is so."""
         return {}
+
+
+class RunSettings(Choices):
+    """The start of a case and the end of its run.
+
+    Attributes:
+        initial: "lattice", "staggered" (every other row by half a spacing) or "relaxed" (disordered, then settled).
+        reynolds: as the case defines it.
+        resolution: particles across the flow.
+        until: when to stop, in the time unit of the case; None where the case says.
+        max_steps: stop after so many steps.
+
+    Raises:
+        SphearError: a setting is unknown or wrong.
+    """
+
+    initial: Literal["lattice", "staggered", "relaxed"] = "lattice"
+    reynolds: float = Field(default=1.0, gt=0, allow_inf_nan=False)
+    resolution: int = Field(default=20, ge=1)
+    until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
+    max_steps: int = Field(default=500_000, ge=1)
+
+    @field_validator("reynolds", mode="after")
+    @classmethod
+    def _within_range(cls, reynolds: float) -> float:
+        if not LEAST_REYNOLDS <= reynolds <= LARGEST_REYNOLDS:
+            raise SphearError(
+                f"the setting reynolds should be from {LEAST_REYNOLDS:g} to {LARGEST_REYNOLDS:g}, not {reynolds:g}"
+            )
+        return reynolds

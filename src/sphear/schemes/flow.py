@@ -18,14 +18,22 @@ from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.arrays import arrays
-from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
+from sphear.schemes.base import (
+    FlowFailure,
+    check_kernel,
+    check_start,
+    check_state,
+    chosen_time_step,
+    described,
+    fineness,
+)
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import CAUSES
 from sphear.schemes.loop import loop_module
 from sphear.schemes.named import named
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem, corner_sound_speed, morris_sound_speed
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.settings import WeaklyCompressible
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -52,7 +60,7 @@ class Flow:
         SphearError: the settings do not fit the problem or each other.
     """
 
-    def __init__(self, problem: Problem, settings: FlowSettings) -> None:
+    def __init__(self, problem: Problem, settings: WeaklyCompressible) -> None:
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
         check_start(problem)
@@ -84,7 +92,9 @@ class Flow:
         self.problem = replace(problem, positions=nothing, velocities=nothing)
 
     @staticmethod
-    def limits_of(problem: Problem, settings: FlowSettings, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
+    def limits_of(
+        problem: Problem, settings: WeaklyCompressible, kernel: Kernel, term: ViscousTerm
+    ) -> dict[str, float]:
         """The time steps that the CFL, viscous and body-force conditions allow; a flow itself is not needed."""
         return problem.time_step_limits(kernel.h, _sound_speed(problem, settings), term.radial)
 
@@ -133,10 +143,10 @@ class Flow:
             width = problem.box.upper[axis] - problem.box.lower[axis]
             if reach > width:
                 raise SphearError(
-                    f"the resolution of {settings.resolution} is too coarse for walls={settings.walls}: {supports} of"
+                    f"{fineness(problem, settings)} is too coarse for walls={settings.walls}: {supports} of"
                     f" {reach:g} {so} beyond the width of {width:g} between the walls"
                 )
-        check_kernel(problem, self.kernel, settings.resolution)
+        check_kernel(problem, self.kernel, settings)
 
     def advance(self, steps: int) -> None:
         """Make steps.
@@ -224,7 +234,7 @@ class Flow:
         self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
 
 
-def _sound_speed(problem: Problem, settings: FlowSettings) -> float:
+def _sound_speed(problem: Problem, settings: WeaklyCompressible) -> float:
     """That of the fluid at rest."""
     equation, density = settings.equation_of_state, problem.density
     if isinstance(equation, Barotropic) and equation.rho0 != density:
@@ -238,7 +248,7 @@ def _sound_speed(problem: Problem, settings: FlowSettings) -> float:
     return settings.sound_speed or max(morris_sound_speed(problem), corner_sound_speed(problem))
 
 
-def _energy_at_rest(problem: Problem, settings: FlowSettings) -> float:
+def _energy_at_rest(problem: Problem, settings: WeaklyCompressible) -> float:
     gas = settings.equation_of_state
     gas = gas if isinstance(gas, IdealGas) else IdealGas()
     return float(gas.energy(problem.density, settings.initial_pressure))

@@ -31,7 +31,7 @@ from sphear.interactions import (
 from sphear.kernels import Kernel
 from sphear.operators.arguments import read_correction
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.settings import WeaklyCompressible
 from sphear.viscosity.base import ViscousTerm
 
 FIT_DEGREES = {"linear": 1, "quadratic": 2}
@@ -66,7 +66,7 @@ class Formulas:
 
 
 def formulas(
-    settings: FlowSettings,
+    settings: WeaklyCompressible,
     problem: Problem,
     term: ViscousTerm,
     kernel: Kernel,
@@ -105,7 +105,7 @@ def formulas(
     )
 
 
-def _equation(settings: FlowSettings, problem: Problem, sound_speed: float) -> EquationOfState:
+def _equation(settings: WeaklyCompressible, problem: Problem, sound_speed: float) -> EquationOfState:
     if isinstance(settings.equation_of_state, EquationOfState):
         return settings.equation_of_state
     if settings.gas:
@@ -115,7 +115,7 @@ def _equation(settings: FlowSettings, problem: Problem, sound_speed: float) -> E
 
 
 def _parts(
-    settings: FlowSettings,
+    settings: WeaklyCompressible,
     problem: Problem,
     kernel: Kernel,
     correction: Correction,
@@ -157,7 +157,9 @@ def _parts(
     return parts
 
 
-def _wall(settings: FlowSettings, problem: Problem, kernel: Kernel) -> VelocityBeforeWall | FluidBeforeWall | None:
+def _wall(
+    settings: WeaklyCompressible, problem: Problem, kernel: Kernel
+) -> VelocityBeforeWall | FluidBeforeWall | None:
     if settings.walls == "mirror" or not problem.box.wall_axes:
         return None
     if settings.walls == "adami":

@@ -13,9 +13,9 @@ from sphear.schemes.objects import plain
 from sphear.viscosity import VISCOSITY
 
 if TYPE_CHECKING:
-    from sphear.schemes.common import SchemeSettings
+    from sphear.schemes.common import Scheme
 
-Chosen = TypeVar("Chosen", bound="SchemeSettings")
+Chosen = TypeVar("Chosen", bound="Scheme")
 
 REGISTRIES: dict[str, Registry[Any]] = {
     "viscosity": VISCOSITY,
@@ -35,7 +35,7 @@ def named(settings: Chosen) -> Chosen:
         SphearError: something has no such name.
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
-    if getattr(settings, "scheme", None) == "incompressible":  # which has its own, without aliases
+    if getattr(settings, "name", None) == "incompressible":  # which has its own, without aliases
         given.pop("wall_velocity")
     names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
     changed = {key: name for key, name in names.items() if name != given[key]}  # others stay as nobody named them

@@ -1,28 +1,27 @@
-"""What can be chosen of an explicit flow, weakly compressible or compressible."""
+"""The choices of the explicit scheme, weakly compressible or compressible."""
 
 from __future__ import annotations
 
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from sphear.equations_of_state import Barotropic, IdealGas
 from sphear.errors import SphearError
-from sphear.schemes.common import OPEN, SchemeSettings
+from sphear.schemes.common import OPEN, RunSettings, Scheme
 from sphear.schemes.objects import CorrectionSetting, EquationSetting, KernelSetting, Term, text
 
 DIFFUSION = 0.1  # delta
 
 
-class FlowSettings(SchemeSettings):
-    """The settings of a flow; the defaults are what was found best (docs/flows.md).
+class WeaklyCompressible(Scheme):
+    """The explicit scheme, weakly compressible or compressible; the defaults are what was found best (docs/flows.md).
 
     They have second derivatives that are exact for quadratic fields, first ones for linear fields, a density that
     diffusion keeps smooth, particles that shifting keeps regular. Where a setting that is named does not go with some
     default, this gives way. The settings of Basa, Quinlan & Lastiwka (2009) are the preset `basa2009`.
 
     Attributes, beside those of all schemes:
-        scheme: "explicit".
         viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.
         correction: consistency correction of the kernel, a name or an object, in the pressure, viscous and continuity
             sums. The density sum stays as it is: divided by the kernel's own sum, sum_b m_b W_ab / sum_b (m_b / rho_b)
@@ -60,7 +59,8 @@ class FlowSettings(SchemeSettings):
         SphearError: a setting is wrong, or two contradict each other.
     """
 
-    scheme: Literal["explicit"] = "explicit"
+    name: ClassVar[str] = "explicit"
+
     viscosity: Term = "fatehi_manzari"
     correction: CorrectionSetting = "bonet_lok"
     kernel: KernelSetting = "wendland_c2"
@@ -79,7 +79,6 @@ class FlowSettings(SchemeSettings):
     transport: Literal["none", "shifting", "transport_velocity"] = "shifting"
     shifting_strength: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     background_pressure: float = Field(default=1.0, gt=0, allow_inf_nan=False)
-    reynolds: float = Field(default=0.5, gt=0, allow_inf_nan=False)
     sound_speed: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     initial_pressure: float = Field(default=125e3, gt=0, allow_inf_nan=False)
 
@@ -148,5 +147,18 @@ class FlowSettings(SchemeSettings):
                 f"equation_of_state={text(self.equation_of_state)}",
                 not self.gas,
             ),
-            "seed": (f"initial={self.initial}", self.initial != "relaxed"),
         }
+
+
+class FlowSettings(RunSettings, WeaklyCompressible):
+    """The settings of a case by the explicit scheme.
+
+    Attributes, beside those of `RunSettings` and `WeaklyCompressible`:
+        scheme: "explicit".
+    """
+
+    scheme: Literal["explicit"] = "explicit"
+    reynolds: float = Field(default=0.5, gt=0, allow_inf_nan=False)
+
+    def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
+        return WeaklyCompressible._idle(self, walled) | {"seed": (f"initial={self.initial}", self.initial != "relaxed")}

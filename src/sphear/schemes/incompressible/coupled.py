@@ -14,7 +14,7 @@ from sphear.pressure.vectors import norm
 from sphear.schemes.incompressible import viscous
 from sphear.schemes.incompressible.pressures import Pressures
 from sphear.schemes.incompressible.projection import Equation
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.sums import Sums
 from sphear.schemes.problem import Problem
 
@@ -263,7 +263,7 @@ class Coupling:
 
 def coupled(
     problem: Problem,
-    settings: IncompressibleSettings,
+    settings: Incompressible,
     pressures: Pressures,
     h: float,
     time_step: float,

@@ -21,7 +21,7 @@ from sphear.schemes.incompressible.free_surface import along_surface
 from sphear.schemes.incompressible.guard import Guard
 from sphear.schemes.incompressible.places import in_box
 from sphear.schemes.incompressible.pressures import Pressures
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.shifting import LEAST_STRETCHING, drift, stretching, unevenness
 from sphear.schemes.incompressible.sums import Discretisation, Sums
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
@@ -69,14 +69,14 @@ class IncompressibleFlow:
         SphearError: the settings do not fit the problem or each other.
     """
 
-    def __init__(self, problem: Problem, settings: IncompressibleSettings, duration: float = math.inf) -> None:
+    def __init__(self, problem: Problem, settings: Incompressible, duration: float = math.inf) -> None:
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
         check_start(problem)
         self.term = arguments.read_viscosity(settings.viscosity)
         correction = arguments.read_correction(settings.correction, self.term)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
-        check_kernel(problem, self.kernel, settings.resolution)
+        check_kernel(problem, self.kernel, settings)
         self.count = len(problem.positions)
         self.threads = thread_count(settings.threads, self.count)
         viscous = Viscous(self.term, correction, self.kernel, problem.kinematic_viscosity)
@@ -128,9 +128,7 @@ class IncompressibleFlow:
         return np.full(self.count, self.problem.density)
 
     @staticmethod
-    def limits_of(
-        problem: Problem, settings: IncompressibleSettings, kernel: Kernel, term: ViscousTerm
-    ) -> dict[str, float]:
+    def limits_of(problem: Problem, settings: Incompressible, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
         """The time steps that each condition allows; a flow itself is not needed."""
         h = kernel.h
         limits = problem.time_step_limits(h, 0.0, term.radial)

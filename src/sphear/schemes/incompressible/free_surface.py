@@ -12,7 +12,7 @@ from sphear.errors import SphearError
 from sphear.interactions.free_surface import Concentration, NearSurface, Umbrella
 from sphear.kernels import Kernel
 from sphear.schemes.incompressible.places import Places
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.objects import text
 from sphear.viscosity.base import LaplacianTerm
 
@@ -51,7 +51,7 @@ class Surface(NamedTuple):
     depth: Array
 
 
-def check_surface_settings(settings: IncompressibleSettings, laplacian: LaplacianTerm, kernel: Kernel) -> None:
+def check_surface_settings(settings: Incompressible, laplacian: LaplacianTerm, kernel: Kernel) -> None:
     """Refuse what does not go with a free surface.
 
     Raises:

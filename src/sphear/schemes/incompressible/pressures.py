@@ -14,7 +14,7 @@ from sphear.operators import arguments
 from sphear.pressure import PRECONDITIONERS, solve
 from sphear.schemes.incompressible.free_surface import check_surface_settings
 from sphear.schemes.incompressible.projection import Equation, PressureRows
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.sums import Sums
 from sphear.schemes.incompressible.walls import Walls
 from sphear.schemes.problem import Problem
@@ -25,7 +25,7 @@ Array = np.ndarray[Any, Any]
 ROUNDED = 1e-13  # of the terms that a source is summed from, what rounding leaves where they cancel
 
 
-def pressure_laplacian(problem: Problem, settings: IncompressibleSettings, kernel: Kernel) -> LaplacianTerm:
+def pressure_laplacian(problem: Problem, settings: Incompressible, kernel: Kernel) -> LaplacianTerm:
     """The viscous term whose Laplacian the pressure equation has.
 
     Raises:
@@ -66,7 +66,7 @@ class Pressures:
     """
 
     def __init__(
-        self, problem: Problem, settings: IncompressibleSettings, kernel: Kernel, walls: Walls | None, alpha: float
+        self, problem: Problem, settings: Incompressible, kernel: Kernel, walls: Walls | None, alpha: float
     ) -> None:
         laplacian = pressure_laplacian(problem, settings, kernel)
         self.preconditioner = PRECONDITIONERS.name(settings.preconditioner)

@@ -47,7 +47,7 @@ class PressureRows:
         term: its Laplacian.
         kernel: with its smoothing length.
         walls: None without walls.
-        neumann: how walls enter it, see `IncompressibleSettings`.
+        neumann: how walls enter it, see `Incompressible`.
         box: around the fluid.
         spacing: of the particles.
     """

@@ -13,7 +13,7 @@ from sphear.boundaries.shapes import Circle, Dummies, Rectangle, Shape, check_ro
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.walls import Walls
 from sphear.schemes.problem import Problem
 
@@ -80,7 +80,7 @@ def between_walls(box: Box) -> Shape | None:
     return Rectangle((left, lower), (right, upper), velocities=velocities)
 
 
-def walls_of(problem: Problem, settings: IncompressibleSettings, kernel: Kernel, supports: int) -> Walls | None:
+def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, supports: int) -> Walls | None:
     """The wall particles, as deep as the kernel reaches; None where there are none.
 
     Args:

@@ -1,26 +1,25 @@
-"""What can be chosen of an incompressible flow."""
+"""The choices of the incompressible scheme."""
 
 from __future__ import annotations
 
 import math
-from typing import Literal, Self
+from typing import ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from sphear.errors import SphearError
-from sphear.schemes.common import OPEN, SchemeSettings
+from sphear.schemes.common import OPEN, RunSettings, Scheme
 from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, text
 
 LEAST_STEPS = 100  # of a run by implicit viscous steps
 
 
-class IncompressibleSettings(SchemeSettings):
-    """The settings of an incompressible flow; the defaults are what was found best (docs/incompressible.md).
+class Incompressible(Scheme):
+    """The projection scheme for incompressible flow; the defaults are what was found best (docs/incompressible.md).
 
     Those of Zheng, Ma & Shao (2018) are the preset `zheng2018`.
 
     Attributes, beside those of all schemes:
-        scheme: "incompressible".
         viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.
         correction: of the viscous term, a name or an object; one with a correction of its own takes no other.
         kernel: name of a kernel, or an object with its own h.
@@ -48,8 +47,6 @@ class IncompressibleSettings(SchemeSettings):
         shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009).
         shifting_strength: factor of the shifting, 1 for that of its source; half of it keeps particles as regular and
             costs half the energy.
-        solid: walls of your own: "none", or a shape in the fluid that is no fluid, as in "Circle((0.3, 0.5), 0.1)", see
-            `sphear.boundaries.shapes.written`. A case around one is compared with no reference.
         viscous_step: "explicit", "crank_nicolson" or "backward_euler"; these two have no viscous limit.
         preconditioner: of the pressure equation, "grid", "amg" or "jacobi".
         tolerance: relative residual of the pressure equation.
@@ -60,7 +57,8 @@ class IncompressibleSettings(SchemeSettings):
         SphearError: two settings contradict each other.
     """
 
-    scheme: Literal["incompressible"] = "incompressible"
+    name: ClassVar[str] = "incompressible"
+
     viscosity: Term = "fatehi_manzari"
     correction: CorrectionSetting = "none"
     kernel: KernelSetting = "wendland_c2"
@@ -76,12 +74,9 @@ class IncompressibleSettings(SchemeSettings):
     slip: bool = True
     shifting: Literal["none", "lind", "xu"] = "lind"
     shifting_strength: float = Field(default=0.5, gt=0, allow_inf_nan=False)
-    solid: str = "none"
     viscous_step: Literal["explicit", "crank_nicolson", "backward_euler"] = "explicit"
     preconditioner: str = "grid"
     tolerance: float = Field(default=1e-4, gt=0, lt=1)
-    reynolds: float = Field(default=100.0, gt=0, allow_inf_nan=False)
-    resolution: int = Field(default=50, ge=1)
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -95,10 +90,6 @@ class IncompressibleSettings(SchemeSettings):
                 f"pressure_level={self.pressure_level} changes nothing with gradient={self.gradient}, which knows"
                 " differences only: take gradient=symmetric or pressure_level=free"
             )
-        if self.solid != "none":
-            from sphear.boundaries.shapes import written
-
-            written(self.solid)
         return self
 
     def accurate_step(self, duration: float) -> float:
@@ -109,5 +100,31 @@ class IncompressibleSettings(SchemeSettings):
         return {
             **dict.fromkeys(("neumann", "wall_velocity", "slip"), (OPEN, not walled)),
             "shifting_strength": ("shifting=none", self.shifting == "none"),
-            "seed": (f"initial={self.initial}", self.initial != "relaxed"),
         }
+
+
+class IncompressibleSettings(RunSettings, Incompressible):
+    """The settings of a case by the incompressible scheme.
+
+    Attributes, beside those of `RunSettings` and `Incompressible`:
+        scheme: "incompressible".
+        solid: walls of your own: "none", or a shape in the fluid that is no fluid, as in "Circle((0.3, 0.5), 0.1)", see
+            `sphear.boundaries.shapes.written`. A case around one is compared with no reference.
+    """
+
+    scheme: Literal["incompressible"] = "incompressible"
+    reynolds: float = Field(default=100.0, gt=0, allow_inf_nan=False)
+    resolution: int = Field(default=50, ge=1)
+    solid: str = "none"
+
+    @field_validator("solid", mode="after")
+    @classmethod
+    def _is_a_shape(cls, solid: str) -> str:
+        if solid != "none":
+            from sphear.boundaries.shapes import written
+
+            written(solid)
+        return solid
+
+    def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
+        return Incompressible._idle(self, walled) | {"seed": (f"initial={self.initial}", self.initial != "relaxed")}

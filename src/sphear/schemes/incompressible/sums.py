@@ -18,7 +18,7 @@ from sphear.schemes.incompressible.free_surface import surface, wetted
 from sphear.schemes.incompressible.places import Places
 from sphear.schemes.incompressible.pressure_level import levelled
 from sphear.schemes.incompressible.region import region, walls_of
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.surface_pressure import surface_gradient
 from sphear.schemes.incompressible.viscous import Viscous
 from sphear.schemes.problem import Problem
@@ -47,7 +47,7 @@ class Discretisation:
     """
 
     def __init__(
-        self, problem: Problem, settings: IncompressibleSettings, kernel: Kernel, viscous: Viscous, threads: int
+        self, problem: Problem, settings: Incompressible, kernel: Kernel, viscous: Viscous, threads: int
     ) -> None:
         self.problem, self.kernel, self.viscous, self.threads = problem, kernel, viscous, threads
         self.pressure_form, self.pressure_level, self.slip = settings.gradient, settings.pressure_level, settings.slip

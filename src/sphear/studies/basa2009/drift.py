@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -58,7 +59,7 @@ def drifting(settings: FlowSettings, disorder: float) -> dict[str, Any]:
 
 def heights_by_row(flow: Flow) -> Array:
     """(n, n): y of each particle, the columns being the rows along the channel at the start."""
-    n = flow.settings.resolution
+    n = round(math.sqrt(flow.count))
     return flow.positions[:, 1].reshape(n, n).copy()
 
 
