@@ -87,7 +87,7 @@ def results(folder: Path) -> dict[str, Any]:
     """All that must be equal: history, metrics, profiles, tables and the last state."""
     import numpy as np
 
-    from sphear.cases.flow.saved import read
+    from sphear.simulation.saved import read
 
     (state,) = folder.glob("*-state.npz")
     case = state.name.removesuffix("-state.npz")
@@ -143,7 +143,7 @@ def kills(scheme: str, wanted: int, place: Path, chance: random.Random) -> dict[
 
 
 def readable(folder: Path) -> bool:
-    from sphear.cases.flow.saved import read
+    from sphear.simulation.saved import read
     from sphear.errors import SphearError
 
     (state,) = folder.glob("*-state.npz")

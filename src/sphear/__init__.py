@@ -21,6 +21,14 @@ from typing import TYPE_CHECKING
 
 # isort: off
 if TYPE_CHECKING:
+    from sphear.boundaries.conditions import NoSlip as NoSlip, Periodic as Periodic
+    from sphear.boundaries.shapes import (
+        Circle as Circle,
+        HalfPlane as HalfPlane,
+        Polygon as Polygon,
+        Rectangle as Rectangle,
+        Shape as Shape,
+    )
     from sphear.cases.flow import FlowRun as FlowRun, flow as flow
     from sphear.cases.patch_test import PatchTest as PatchTest
     from sphear.corrections import (
@@ -59,6 +67,21 @@ if TYPE_CHECKING:
         laplacian as laplacian,
         viscous_acceleration as viscous_acceleration,
     )
+    from sphear.schemes.base import FlowFailure as FlowFailure
+    from sphear.schemes.incompressible.settings import Incompressible as Incompressible
+    from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
+    from sphear.simulation.fluid import Fluid as Fluid
+    from sphear.simulation.observers import (
+        Call as Call,
+        History as History,
+        Observer as Observer,
+        Probe as Probe,
+        Profile as Profile,
+        Progress as Progress,
+        Snapshots as Snapshots,
+        StopWhen as StopWhen,
+    )
+    from sphear.simulation.simulation import Simulation as Simulation
     from sphear.viscosity import (
         VISCOSITY as VISCOSITY,
         Cleary as Cleary,
@@ -82,6 +105,8 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
+    "sphear.boundaries.conditions": ("NoSlip", "Periodic"),
+    "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
     "sphear.cases.flow": ("FlowRun", "flow"),
     "sphear.cases.patch_test": ("PatchTest",),
     "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
@@ -95,6 +120,14 @@ _HOMES = {
     ),
     "sphear.neighbours": ("Domain", "Neighbours"),
     "sphear.operators": ("Particles", "gradient", "interpolate", "laplacian", "viscous_acceleration"),
+    "sphear.schemes.base": ("FlowFailure",),
+    "sphear.schemes.incompressible.settings": ("Incompressible",),
+    "sphear.schemes.settings": ("WeaklyCompressible",),
+    "sphear.simulation.fluid": ("Fluid",),
+    "sphear.simulation.observers": (
+        "Call", "History", "Observer", "Probe", "Profile", "Progress", "Snapshots", "StopWhen",
+    ),
+    "sphear.simulation.simulation": ("Simulation",),
     "sphear.viscosity": (
         "VISCOSITY", "Cleary", "EspanolRevenga", "FatehiManzari", "Gotoh", "LaplacianTerm", "LeastSquares",
         "Monaghan", "Morris", "Oger", "Schwaiger", "Takeda", "TwoPass", "ViscousTerm", "Violeau",

@@ -11,10 +11,10 @@ import pytest
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.cases.flow import cavity as case
 from sphear.cases.flow import cavity_cylinder as cylinder
-from sphear.cases.flow.interpolation import interpolated
 from sphear.references import cavity as references
 from sphear.schemes.flow import Flow
 from sphear.schemes.settings import FlowSettings
+from sphear.simulation.interpolation import interpolated
 
 Array = np.ndarray[Any, Any]
 

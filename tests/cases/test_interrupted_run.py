@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
-from sphear.cases.flow.saved import checksum, earlier, forget, read, recover
 from sphear.errors import SphearError
 from sphear.schemes.presets import PRESETS
+from sphear.simulation.saved import checksum, earlier, forget, read, recover
 
 CASE = FLOWS["poiseuille"]
 SCHEMES: dict[str, dict[str, Any]] = {

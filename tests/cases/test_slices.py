@@ -9,12 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun, pace
+from sphear.cases.flow import FLOWS, FlowRun
 from sphear.cases.flow import run as module
-from sphear.cases.flow.pace import Savings, Slices
-from sphear.cases.flow.saved import About, read, write
+from sphear.cases.flow.run import CaseHistory
 from sphear.errors import SphearError
 from sphear.schemes.presets import PRESETS
+from sphear.simulation import pace
+from sphear.simulation.pace import Savings, Slices
+from sphear.simulation.saved import About, read, write
 
 RUNS: dict[str, tuple[str, dict[str, Any]]] = {
     "explicit": ("poiseuille", {**PRESETS["basa2009"], "resolution": 10, "until": 0.3}),
@@ -89,12 +91,12 @@ def test_an_output_that_ctrl_c_prevented_is_made_when_the_run_goes_on(
 ) -> None:
     whole, path = start().run(), tmp_path / "state.npz"
 
-    def interrupt(run: FlowRun, until: float) -> None:
+    def interrupt(history: CaseHistory, run: FlowRun) -> None:
         raise KeyboardInterrupt
 
     run = start()
     with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_observe", interrupt)
+        patched.setattr(CaseHistory, "watch", interrupt)
         with pytest.raises(KeyboardInterrupt):
             run.run(keep=path)
     assert run.history == []

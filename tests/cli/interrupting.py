@@ -8,18 +8,19 @@ from contextlib import contextmanager
 import pytest
 
 from sphear.cases.flow import FlowRun
+from sphear.cases.flow.run import CaseHistory
 
 
 @contextmanager
 def interrupted_at(output: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Have Ctrl-C come when a run has made so many outputs."""
-    observe = FlowRun._observe
+    watch = CaseHistory.watch
 
-    def observed(run: FlowRun, until: float) -> None:
-        observe(run, until)
+    def watched(history: CaseHistory, run: FlowRun) -> None:
+        watch(history, run)
         if len(run.history) == output:
             raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_observe", observed)
+        patched.setattr(CaseHistory, "watch", watched)
         yield

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.flow import FlowRun
+from sphear.cases.flow.run import CaseHistory
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.presets import preset_settings
 
@@ -86,15 +87,15 @@ def test_a_failure_is_reported_with_files_and_without_warnings(sphear: Run) -> N
 
 
 def test_an_interrupted_run_is_gone_on_with(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    observe, short = FlowRun._observe, (*CAVITY, "--set", "max_steps=6")
+    watch, short = CaseHistory.watch, (*CAVITY, "--set", "max_steps=6")
 
-    def observed(run: FlowRun, until: float) -> None:
-        observe(run, until)
+    def watched(history: CaseHistory, run: FlowRun) -> None:
+        watch(history, run)
         if len(run.history) == 3:
             raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_observe", observed)
+        patched.setattr(CaseHistory, "watch", watched)
         stopped = sphear(*short, "--out", "results", "--json")
     assert (stopped.status, stopped.out) == (130, "")
     assert "--resume goes on from there" in stopped.err

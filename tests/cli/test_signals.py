@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.flow import FlowRun
+from sphear.cases.flow.run import CaseHistory
 from sphear.cli.signals import Signals
 from sphear.results import OutputFolder
 
@@ -152,13 +153,13 @@ def test_the_status_is_that_of_ctrl_c_where_no_signal_was_heard() -> None:
 
 
 def test_a_signal_without_a_folder_keeps_nothing_and_says_so(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    observe = FlowRun._observe
+    watch = CaseHistory.watch
 
-    def observed(run: FlowRun, until: float) -> None:
-        observe(run, until)
+    def watched(history: CaseHistory, run: FlowRun) -> None:
+        watch(history, run)
         send("SIGTERM")
 
-    monkeypatch.setattr(FlowRun, "_observe", observed)
+    monkeypatch.setattr(CaseHistory, "watch", watched)
     outcome = sphear(*CASE[:-2], "--json")
     assert (outcome.status, outcome.out) == (143, "")
     assert "nothing is kept: with --out DIR the run could be gone on with" in outcome.err

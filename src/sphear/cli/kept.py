@@ -49,8 +49,8 @@ def kept_in(files: OutputFolder | None, run: FlowRun, *, resume: bool, overwrite
     if files is None:
         yield
         return
-    from sphear.cases.flow.saved import forget, recover
     from sphear.results.lock import locked
+    from sphear.simulation.saved import forget, recover
     from sphear.whole import remove_partial
 
     name, state = run.case.name, state_of(run.case.name, files)
@@ -80,7 +80,7 @@ def kept_in(files: OutputFolder | None, run: FlowRun, *, resume: bool, overwrite
 
 
 def _check_empty(name: str, files: OutputFolder) -> None:
-    from sphear.cases.flow.saved import earlier, read
+    from sphear.simulation.saved import earlier, read
 
     state = state_of(name, files)
     try:
@@ -152,7 +152,7 @@ def finish(run: FlowRun, files: OutputFolder | None, steps: Sequence[Callable[[]
         raise OutputError(f"{error}; {later}") from None
     if files is None:
         return
-    from sphear.cases.flow.saved import earlier, forget
+    from sphear.simulation.saved import earlier, forget
 
     state = state_of(run.case.name, files)
     with suppress(OSError):

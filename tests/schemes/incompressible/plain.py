@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from sphear.boundaries.shapes import Dummies
-from sphear.schemes.incompressible.settings import IncompressibleSettings
+from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -54,7 +54,7 @@ class Plain:
     """
 
     def __init__(
-        self, problem: Problem, settings: IncompressibleSettings, wall: Dummies | None, time_step: float, alpha: float
+        self, problem: Problem, settings: Incompressible, wall: Dummies | None, time_step: float, alpha: float
     ) -> None:
         assert settings.h_over_dx is not None
         self.problem, self.settings, self.dt, self.alpha = problem, settings, time_step, alpha

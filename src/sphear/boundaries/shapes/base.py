@@ -193,3 +193,9 @@ def slowest(chosen: Array, velocities: Array) -> Array:
     velocities = np.broadcast_to(velocities, (*chosen.shape, 2))
     best = np.argmin(np.where(chosen, (velocities**2).sum(axis=-1), inf), axis=1)
     return np.asarray(velocities[np.arange(len(best)), best])
+
+
+def check_name(name: object) -> None:
+    """Refuse a shape's name that is no text."""
+    if not isinstance(name, str):
+        raise SphearError(f"the name of a shape is a text, not {quoted(name)}")

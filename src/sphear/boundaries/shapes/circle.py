@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import Array, Foot, Primitive, Vector, number, plane_vector, text
+from sphear.boundaries.shapes.base import Array, Foot, Primitive, Vector, check_name, number, plane_vector, text
 from sphear.boundaries.shapes.rows import behind
 from sphear.errors import SphearError
 from sphear.neighbours.domain import Domain
@@ -22,6 +22,7 @@ class Circle(Primitive):
         centre: c.
         radius: R.
         spin: angular velocity of the wall about its centre, anticlockwise, in radians a time.
+        name: by which conditions of its walls are given.
 
     Raises:
         SphearError: there is no such circle, or its wall is too fast.
@@ -30,8 +31,10 @@ class Circle(Primitive):
     centre: Vector
     radius: float
     spin: float = 0.0
+    name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
+        check_name(self.name)
         object.__setattr__(self, "centre", plane_vector("the centre of a circle", self.centre))
         object.__setattr__(self, "radius", number("the radius of a circle", self.radius))
         object.__setattr__(self, "spin", number("the spin of a circle", self.spin))

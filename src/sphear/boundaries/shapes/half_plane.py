@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from math import hypot, inf
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, plane_vector, text
+from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, check_name, plane_vector, text
 from sphear.boundaries.shapes.rows import SLACK, behind, grid, window_ticks
 from sphear.errors import SphearError
 from sphear.neighbours.domain import Domain
@@ -22,6 +22,7 @@ class HalfPlane(Primitive):
         point: p, any on the wall.
         inward: its normal n, into the fluid; of any length but zero, kept with length one.
         velocity: of the wall, along itself.
+        name: by which conditions of its walls are given.
 
     Raises:
         SphearError: the normal is zero, or the wall moves through itself.
@@ -30,8 +31,10 @@ class HalfPlane(Primitive):
     point: Vector
     inward: Vector
     velocity: Vector = (0.0, 0.0)
+    name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
+        check_name(self.name)
         point = plane_vector("the point of a half-plane", self.point)
         x, y = plane_vector("the normal of a half-plane", self.inward)
         velocity = plane_vector("the velocity of a half-plane", self.velocity)

@@ -3,12 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import hypot
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, by_name, plane_vector, text
+from sphear.boundaries.shapes.base import (
+    ROUNDING,
+    Array,
+    Foot,
+    Primitive,
+    Vector,
+    by_name,
+    check_name,
+    plane_vector,
+    text,
+)
 from sphear.boundaries.shapes.contours import contour_rows
 from sphear.boundaries.shapes.edges import edge_rows
 from sphear.boundaries.shapes.nearest_edge import blocks, first_crossing, nearest_edges
@@ -27,6 +37,7 @@ class Polygon(Primitive):
     Args:
         vertices: three or more, in either orientation.
         velocities: of the edges that slide, each along itself, by number: edge i begins at vertex i.
+        name: by which conditions of its walls are given.
 
     Raises:
         SphearError: the vertices make no polygon, its edges meet elsewhere, or an edge moves through itself.
@@ -34,8 +45,10 @@ class Polygon(Primitive):
 
     vertices: Sequence[Vector]
     velocities: Mapping[int, Vector] | tuple[tuple[int, Vector], ...] = ()
+    name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
+        check_name(self.name)
         given: object = self.vertices
         if not isinstance(given, Sequence | np.ndarray) or len(given) < 3:
             raise SphearError(f"a polygon has three or more vertices, not {quoted(given)}")

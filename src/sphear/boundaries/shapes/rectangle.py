@@ -3,12 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf, isfinite
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, by_name, plane_vector, slowest, text
+from sphear.boundaries.shapes.base import (
+    ROUNDING,
+    Array,
+    Foot,
+    Primitive,
+    Vector,
+    by_name,
+    check_name,
+    plane_vector,
+    slowest,
+    text,
+)
 from sphear.boundaries.shapes.rows import behind, grid, inside, window_ticks
 from sphear.errors import SphearError
 from sphear.names import unknown
@@ -28,6 +39,7 @@ class Rectangle(Primitive):
         lower: the lower corner; -inf where there is no wall.
         upper: the upper corner; inf where there is no wall.
         velocities: of the sides "left", "right", "lower" and "upper" that slide, each along itself.
+        name: by which conditions of its walls are given.
 
     Raises:
         SphearError: the corners do not span a rectangle, or a side moves through itself.
@@ -36,8 +48,10 @@ class Rectangle(Primitive):
     lower: Vector
     upper: Vector
     velocities: Mapping[str, Vector] | tuple[tuple[str, Vector], ...] = ()
+    name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
+        check_name(self.name)
         lower = plane_vector("the lower corner of a rectangle", self.lower, finite=False)
         upper = plane_vector("the upper corner of a rectangle", self.upper, finite=False)
         if not all(low < high and low < inf and high > -inf for low, high in zip(lower, upper, strict=True)):

@@ -1,31 +1,45 @@
-"""A run of a case: advanced from one output to the next until it ends or fails; kept, and gone on with."""
+"""A run of a case: its own history and comparisons are what it is watched for."""
 
 from __future__ import annotations
 
-import time
-import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sphear.cases.flow.base import FlowCase, Settings
 from sphear.cases.flow.own_walls import opened
-from sphear.cases.flow.pace import Copies, Savings, Slices
-from sphear.cases.flow.saved import About, check, read, write
-from sphear.schemes.base import FlowFailure, flow_in_time
+from sphear.schemes.base import flow_in_time
 from sphear.schemes.named import named
-from sphear.schemes.watch import LOST, Watch, unresolved
+from sphear.schemes.watch import Watch
+from sphear.simulation.observers import Observer
+from sphear.simulation.run import ROUND_OFF, Kept, Run, aloud, quietly
+from sphear.simulation.saved import About, check, read, write
 from sphear.versions import versions
 
-Array = np.ndarray[Any, Any]
+if TYPE_CHECKING:
+    Array = np.ndarray[Any, Any]
 
 OUTPUTS = 200  # of a run to its planned end
-ROUND_OFF = 1e-12  # of a time
+SELDOM = 1000  # steps between two outputs, at most
 
 
-class FlowRun:
+@dataclass
+class CaseHistory(Observer):
+    """Rows of the metrics of a case; it also judges whether the run has ended."""
+
+    def look(self, run: Run) -> dict[str, float]:
+        """Time in the unit of the case, steps, and metrics of case and scheme."""
+        assert isinstance(run, FlowRun)
+        with np.errstate(all="ignore"):  # also of a flow that broke down
+            metrics = {**run.case.metrics(run.settings, run.flow), **run.flow.metrics()}
+        run.end = run.end or run.implausible() or run.verdict(metrics)
+        return {"time": run.flow.time / run.unit, "steps": run.flow.steps, **metrics}
+
+
+class FlowRun(Run):
     """A run of a case: where it stands, and what was found at each output.
 
     Args:
@@ -48,14 +62,9 @@ class FlowRun:
         settings = named(settings)
         self.case, self.settings = opened(case, settings), settings
         problem = self.case.problem(settings)
-        self.unit = case.time_unit(settings)
-        self.flow = flow_in_time(problem, settings, self.planned * self.unit)
-        self.watch, self.unresolved = Watch(problem), unresolved(problem)
-        self.history: list[dict[str, float]] = []
-        self.end = ""
-        self.seconds = 0.0
-        self.saved: float | None = None
-        self._warned = False
+        unit = case.time_unit(settings)
+        flow = flow_in_time(problem, settings, self.planned * unit)
+        super().__init__(flow, Watch(problem), (CaseHistory(),), unit, case.time_name)
 
     def __repr__(self) -> str:
         """What is computed, how, and where it stands."""
@@ -67,18 +76,32 @@ class FlowRun:
         )
 
     @property
+    def history(self) -> list[dict[str, float]]:
+        """A row for each output."""
+        return self.observers[0].rows
+
+    @history.setter
+    def history(self, rows: list[dict[str, float]]) -> None:
+        self.observers[0].rows = rows
+
+    @property
     def planned(self) -> float:
         """When the run is expected to end, in the time unit of the case; infinite if nothing says."""
         horizon = self.case.horizon if self.settings.until is None else self.settings.until
         return np.inf if horizon is None else horizon
 
+    @property
+    def until(self) -> float:
+        """The time of the flow at which the run ends; infinite where only the case says."""
+        return np.inf if self.settings.until is None else self.settings.until * self.unit
+
     def run(
         self,
-        progress: Callable[[str], None] = lambda text: None,
+        progress: Callable[[str], None] = quietly,
         keep: Path | None = None,
         *,
         stopped: Callable[[], bool] = lambda: False,
-        warn: Callable[[str], None] = lambda text: warnings.warn(text, stacklevel=3),
+        warn: Callable[[str], None] = aloud,
     ) -> FlowRun:
         """Advance until the end; a failure is an end too, and keeps all that was found.
 
@@ -97,146 +120,37 @@ class FlowRun:
                 hundred times as long as a copy takes, or `stopped`; the flow can go on.
         """
         steps = min(self.planned * self.unit / self.flow.time_step, self.settings.max_steps)
-        every = int(np.clip(steps / OUTPUTS, 1, 1000))
-        until = np.inf if self.settings.until is None else self.settings.until * self.unit
-        slices, copies, savings = Slices(), Copies(), Savings(steps, self.flow.steps)
-        safe = self._now()
+        self.observers[0].steps = int(np.clip(steps / OUTPUTS, 1, SELDOM))
         if self._recorded and not self.end:  # gone on with: it may have been interrupted at its last output
-            self.end = self._verdict(self.history[-1], until)
-        try:
-            self.flow.advance(0)  # compiles
-            while not self.end:
-                if stopped():
-                    safe = self._now()
-                    raise KeyboardInterrupt
-                if not self._due(every, until):
-                    self._advance(slices, every, until)
-                if output := self._failed or self._due(every, until):
-                    self._observe(until)
-                if self._failed:
-                    break
-                began, save = time.monotonic(), keep is not None and savings.due(self.flow.steps)
-                if output or save or copies.due():
-                    safe = self._now()
-                    copies.taken(began)
-                progress(self._standing(steps))
-                if keep is not None and save:
-                    self._try_to_save(keep, safe, warn)
-                    savings.tried(began, self.flow.steps)
-        except KeyboardInterrupt:
-            state, rows = safe  # Ctrl-C comes as the compiled loop returns, before the clock knows its steps
-            self.flow.restore(state)
-            del self.history[rows:]
-            self.end = ""
-            if keep is not None:
-                self._try_to_save(keep, safe, warn, always=True)
-            raise
-        if keep is not None:
-            self._try_to_save(keep, safe, warn, always=True)
+            self._looked[0] = self.flow.steps
+            self.end = self.verdict(self.history[-1])
+        self._to_end(self.until, self.settings.max_steps, progress, keep, stopped, warn)
         return self
-
-    def _now(self) -> tuple[dict[str, Array], int]:
-        """The state, a copy, and how many rows of the history belong to it."""
-        return self.flow.state(), len(self.history)
-
-    @property
-    def _failed(self) -> bool:
-        return self.end.startswith("failed")
 
     @property
     def _recorded(self) -> bool:
         """Whether the last output is of now."""
         return bool(self.history) and self.history[-1]["steps"] == self.flow.steps
 
-    def _due(self, every: int, until: float) -> bool:
-        """Whether there is an output now."""
-        steps = self.flow.steps
-        last = steps >= self.settings.max_steps or self.flow.time >= until * (1 - ROUND_OFF)
-        return steps > 0 and (last or steps % every == 0) and not self._recorded
-
-    def _advance(self, slices: Slices, every: int, until: float) -> None:
-        """Make the steps of a slice, to the next output at most; a failure is the end."""
-        made = self.flow.steps
-        # where a step ends at `until`, round-off must not ask for one more
-        left = max(1.0, np.ceil((until - self.flow.time) / self.flow.time_step - 1e-6))
-        wanted = int(min(every - made % every, left, self.settings.max_steps - made, slices.steps))
-        began = time.perf_counter()
-        try:
-            self.flow.advance(wanted)
-        except FlowFailure as failure:
-            self.end = f"failed: {failure}"
-        taken = time.perf_counter() - began
-        self.seconds += taken
-        slices.measured(wanted, taken)
-
-    def _standing(self, steps: float) -> str:
-        flow, last = self.flow, min(steps, self.settings.max_steps)
-        left = (last - flow.steps) * self.seconds / max(1, flow.steps)
-        ending = f", {left:.0f} s left" if np.isfinite(left) and left > 1 else ""
-        share = f", {min(1.0, flow.steps / last):.0%}" if np.isfinite(self.planned) else ""
-        return f"{self.case.time_name} = {flow.time / self.unit:.4g}, step {flow.steps}{share}{ending}"
-
-    def _observe(self, until: float) -> None:
-        with np.errstate(all="ignore"):  # also of a flow that broke down
-            metrics = {**self.case.metrics(self.settings, self.flow), **self.flow.metrics()}
-        self.history.append({"time": self.flow.time / self.unit, "steps": self.flow.steps, **metrics})
-        self.end = self.end or self._implausible() or self._verdict(metrics, until)
-
-    def _implausible(self) -> str:
-        found = self.watch.found(self.flow)
-        if found is None:
-            return ""
-        return f"failed: the flow failed at t = {self.flow.time:g}: {found}, as when particles do not resolve it"
-
-    @property
-    def warnings(self) -> list[str]:
-        """Sentences that say what is not resolved, and of how much energy the discretisation took."""
-        lost = -min((row.get("energy_residual", 0.0) for row in self.history), default=0.0)
-        if not lost > LOST:
-            return self.unresolved
-        taken = f"the discretisation took {lost:.2g} of the energy that was there and turned over"
-        return [*self.unresolved, f"{taken}: a finer resolution takes less"]
-
-    def _verdict(self, metrics: dict[str, float], until: float) -> str:
+    def verdict(self, metrics: dict[str, float]) -> str:
         """How the run has ended, where it stands; empty if it goes on."""
         if said := self.case.ended(self.settings, self.flow, metrics):
             return said
-        if self.flow.time >= until * (1 - ROUND_OFF):
+        if self.flow.time >= self.until * (1 - ROUND_OFF):
             return "time"
         return "steps" if self.flow.steps >= self.settings.max_steps else ""
 
-    def save(self, path: Path) -> None:
-        """Write all that the run needs to go on to a file, an `.npz` of NumPy; the file before is kept beside it.
-
-        Raises:
-            OSError: it cannot be written.
-        """
-        self._save(path, self._now())
-
-    def _save(self, path: Path, kept: tuple[dict[str, Array], int]) -> None:
-        state, rows = kept
+    def _save(self, path: Path, kept: Kept) -> None:
+        state, rows, _ = kept
         about = About(
             case=self.case.name,
             settings=self.settings.model_dump(mode="json"),
-            history=self.history[:rows],
+            history=self.history[: rows[0]],
             seconds=self.seconds,
-            end="" if self._failed else self.end,
+            end="" if self.failed else self.end,
         )
         write(path, about, state)
         self.saved = float(state["clock"][0]) / self.unit
-
-    def _try_to_save(
-        self, path: Path, kept: tuple[dict[str, Array], int], warn: Callable[[str], None], always: bool = False
-    ) -> None:
-        """Save a state with its rows of the history; a run goes on without, and says so once, or always."""
-        try:
-            self._save(path, kept)
-        except OSError as error:
-            if always or not self._warned:
-                there = "" if self.saved is None else f", which has that of {self.case.time_name} = {self.saved:.4g}"
-                again = "" if always else ", the run goes on and tries again"
-                warn(f"the state cannot be saved in {path}{there}: {error.strerror or error}{again}")
-            self._warned = True
 
     def restore(self, path: Path) -> None:
         """Go on from a file that `save` wrote.
@@ -256,7 +170,7 @@ class FlowRun:
         """Case, resolved settings, metrics and performance, as `--json` prints them."""
         flow, settings = self.flow, self.settings
         last = self.history[-1]
-        failed = self._failed
+        failed = self.failed
         summary = {} if failed else self.case.summary(settings, flow)
         profiles = {} if failed else self.case.profiles(settings, flow)
         return {

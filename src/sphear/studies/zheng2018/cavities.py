@@ -149,8 +149,8 @@ def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection
 def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, going on where it was saved last; fields are kept as profiles."""
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.cases.flow.saved import forget, recover
     from sphear.errors import SphearError
+    from sphear.simulation.saved import forget, recover
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
@@ -180,7 +180,7 @@ def fields(run: FlowRun) -> dict[str, list[float | None]]:
     """
     import numpy as np
 
-    from sphear.cases.flow.interpolation import interpolated
+    from sphear.simulation.interpolation import interpolated
 
     flow = run.flow
     ticks = (np.arange(POINTS) + 0.5) / POINTS

@@ -1,0 +1,67 @@
+"""A function of the user's own, and rules that end a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from sphear.errors import SphearError, quoted
+from sphear.simulation.observers.base import Observer
+
+if TYPE_CHECKING:
+    from sphear.simulation.run import Run
+
+
+@dataclass
+class Call(Observer):
+    """Calls a function with the simulation at every look, and keeps what it returns, but None.
+
+    Args:
+        function: of the simulation.
+        every: interval of time between two looks.
+        steps: or the interval in steps.
+
+    Raises:
+        SphearError: it is no function.
+
+    Example:
+        >>> import sphear
+        >>> observer = sphear.Call(lambda simulation: simulation.velocities.max(), every=0.1)
+    """
+
+    at_start = False
+
+    function: Callable[[Any], Any] | None = None
+
+    def __init__(self, function: Callable[[Any], Any], *, every: float | None = None, steps: int | None = None) -> None:
+        if not callable(function):
+            raise SphearError(f"{type(self).__name__} calls a function of the simulation, not {quoted(function)}")
+        self.function, self.every, self.steps, self.rows = function, every, steps, []
+        super().__post_init__()
+
+    def look(self, run: Run) -> Any:
+        """What the function returns."""
+        assert self.function is not None
+        return self.function(run)
+
+
+@dataclass(init=False)
+class StopWhen(Call):
+    """Ends a run when a function of the simulation returns something true; a text is the end's name.
+
+    Args:
+        function: of the simulation.
+        every: interval of time between two looks.
+        steps: or the interval in steps.
+
+    Example:
+        >>> import sphear
+        >>> rule = sphear.StopWhen(lambda simulation: simulation.time > 1.0, steps=10)
+    """
+
+    def look(self, run: Run) -> None:
+        """End the run if the function says so."""
+        said = super().look(run)
+        if said and not run.end:
+            run.end = said if isinstance(said, str) else "stopped"

@@ -1,0 +1,49 @@
+"""Numbers of the whole flow against time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from sphear.schemes.energy import kinetic_energy
+from sphear.simulation.observers.base import Observer
+
+if TYPE_CHECKING:
+    from sphear.simulation.run import Run
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass
+class History(Observer):
+    """Time, steps, kinetic energy, greatest speed and what the scheme says of itself, at every look.
+
+    Args:
+        every: interval of time between two looks.
+        steps: or the interval in steps.
+
+    Example:
+        >>> import sphear
+        >>> sphear.History(every=0.1)
+        History(every=0.1, steps=None)
+    """
+
+    def look(self, run: Run) -> dict[str, float]:
+        """A row of numbers by name."""
+        flow = run.flow
+        mass = flow.problem.density * flow.problem.spacing ** flow.velocities.shape[1]
+        return {
+            "time": flow.time,
+            "steps": flow.steps,
+            "kinetic_energy": kinetic_energy(mass, flow.velocities),
+            "greatest_speed": float(np.sqrt((flow.velocities**2).sum(axis=1).max())),
+            **(flow.metrics() if flow.steps else {}),
+        }
+
+    @property
+    def table(self) -> dict[str, Array]:
+        """The numbers of all looks by name, (looks,) each; NaN where a look has none."""
+        names = dict.fromkeys(name for row in self.rows for name in row)
+        return {name: np.array([row.get(name, np.nan) for row in self.rows], np.float64) for name in names}

@@ -1,0 +1,53 @@
+"""Copies of all particles in memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from sphear.simulation.observers.base import Observer
+
+if TYPE_CHECKING:
+    from sphear.simulation.run import Run
+
+Array = np.ndarray[Any, Any]
+
+
+class Snapshot(NamedTuple):
+    """All particles at one time.
+
+    Attributes:
+        time: of the flow.
+        positions, velocities: (N, d).
+        density, pressure: (N,).
+    """
+
+    time: float
+    positions: Array
+    velocities: Array
+    density: Array
+    pressure: Array
+
+
+@dataclass
+class Snapshots(Observer):
+    """Copies of all particles, at the start and at every look, as `rows` of `Snapshot`.
+
+    Args:
+        every: interval of time between two looks.
+        steps: or the interval in steps.
+
+    Example:
+        >>> import sphear
+        >>> sphear.Snapshots(steps=100).rows
+        []
+    """
+
+    def look(self, run: Run) -> Snapshot:
+        """The particles as they are."""
+        flow = run.flow
+        return Snapshot(
+            flow.time, flow.positions.copy(), flow.velocities.copy(), flow.density.copy(), flow.pressure.copy()
+        )
