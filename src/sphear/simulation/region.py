@@ -36,6 +36,7 @@ def problem_of(
     body_force: Force | None = None,
     speed: float | None = None,
     length: float | None = None,
+    filled: Shape | None = None,
 ) -> Problem:
     """The problem of a region of fluid.
 
@@ -48,6 +49,7 @@ def problem_of(
         body_force: on a unit of mass, constant or a function of places (N, d) and the time.
         speed: the largest that is expected; None takes that of walls, of the start, or what the force gives.
         length: that a Reynolds number is made with; None takes the least extent of the region.
+        filled: the part of the region that fluid fills at the start, with a surface of its own; None is all of it.
 
     Raises:
         SphearError: these do not go together.
@@ -62,7 +64,11 @@ def problem_of(
     axes, conditions = _sorted(region, boundaries)
     region = with_conditions(region, conditions)
     box, shape = _box_and_shape(region, axes)
+    if filled is not None:
+        shape = unbounded(region, axes, box.lower, box.upper)
     positions, dx = lattice(box, shape, dx)
+    if filled is not None:
+        positions = _within(filled, positions)
     velocities = initial_velocities(velocity, positions)
     extent = min(high - low for low, high in zip(box.lower, box.upper, strict=True))
     given = extent if length is None else length
@@ -79,8 +85,20 @@ def problem_of(
         speed=_speed(walls, velocities, force, fluid.nu, extent) if speed is None else speed,
         length=given,
         shape=shape,
+        free_surface=filled is not None,
         force=body_force if callable(body_force) else None,
     )
+
+
+def _within(filled: Shape, positions: Array) -> Array:
+    """The particles in the part that is filled."""
+    given: object = filled
+    if not isinstance(given, Shape):
+        raise SphearError(f"the part that is filled is a shape, such as Rectangle((0, 0), (1, 2)), not {quoted(given)}")
+    found: Array = positions[filled.distance(positions) > 0]
+    if not len(found):
+        raise SphearError(f"the part that is filled, the {filled}, holds no particle of the region")
+    return found
 
 
 def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[int, ...], dict[str, NoSlip]]:

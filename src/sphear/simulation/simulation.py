@@ -75,6 +75,7 @@ class Simulation(Run):
         speed: the largest that is expected, which time steps follow; None takes that of walls, of the start, or the
             least of f L^2 / (8 nu) and sqrt(2 f L) of a force.
         length: that the Reynolds number is made with; None takes the least extent of the region.
+        filled: the part of the region that fluid fills at the start, with a surface of its own; None is all of it.
 
     Attributes:
         time, steps: reached.
@@ -110,12 +111,13 @@ class Simulation(Run):
         body_force: Force | None = None,
         speed: float | None = None,
         length: float | None = None,
+        filled: Shape | None = None,
     ) -> None:
         given: Any = {} if boundaries is None else boundaries
         for observer in observers:
             check_observer(observer)
         chosen = _scheme(scheme)
-        problem = problem_of(region, spacing, fluid, given, velocity, body_force, speed, length)
+        problem = problem_of(region, spacing, fluid, given, velocity, body_force, speed, length, filled)
         conditions = dict(given)
         super().__init__(flow_in_time(problem, chosen), Watch(problem), (_Plausible(), *observers))
         self.region, self.fluid, self.boundaries, self.scheme = region, fluid, conditions, chosen
