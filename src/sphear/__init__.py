@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 # isort: off
 if TYPE_CHECKING:
-    from sphear.boundaries.conditions import NoSlip as NoSlip, Periodic as Periodic
+    from sphear.boundaries.conditions import FreeSlip as FreeSlip, NoSlip as NoSlip, Periodic as Periodic
     from sphear.boundaries.shapes import (
         Circle as Circle,
         HalfPlane as HalfPlane,
@@ -105,7 +105,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _HOMES = {
-    "sphear.boundaries.conditions": ("NoSlip", "Periodic"),
+    "sphear.boundaries.conditions": ("FreeSlip", "NoSlip", "Periodic"),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
     "sphear.cases.flow": ("FlowRun", "flow"),
     "sphear.cases.patch_test": ("PatchTest",),

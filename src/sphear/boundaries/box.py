@@ -31,6 +31,7 @@ class Box:
         sides: "periodic" or "walls", one an axis.
         lower_velocity: of the wall at the lower end of the last axis that has walls; () is at rest.
         upper_velocity: of the wall at its upper end; () is at rest.
+        free_slip: walls that fluid slips along, as pairs of axis and end, 0 the lower and 1 the upper one.
 
     Raises:
         SphearError: the corners, sides and velocities do not belong together.
@@ -41,6 +42,7 @@ class Box:
     sides: tuple[Side, ...]
     lower_velocity: tuple[float, ...] = ()
     upper_velocity: tuple[float, ...] = ()
+    free_slip: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("lower", "upper"):
@@ -112,17 +114,21 @@ class Box:
         return tuple(axis for axis, side in enumerate(self.sides) if side == "walls")
 
     def arrays(self, mirrored: bool = True) -> tuple[Array, Array, Array, Array]:
-        """Lower and upper corner, the kinds of sides and the walls' velocities, (d, 2, d), for compiled code.
+        """Lower and upper corner, the kinds of sides and the walls' velocities, (d, 2, d + 1), for compiled code.
+
+        Behind a wall's velocity is 1 where fluid slips along it, else 0.
 
         Args:
             mirrored: whether particles have mirror images at walls; else there is nothing beyond them.
         """
         dimension = len(self.lower)
         kinds = np.array([(MIRRORS if mirrored else OPEN) if side == "walls" else PERIODIC for side in self.sides])
-        velocities = np.zeros((dimension, 2, dimension))
+        velocities = np.zeros((dimension, 2, dimension + 1))
         for axis in self.wall_axes[-1:]:
             for side, velocity in enumerate((self.lower_velocity, self.upper_velocity)):
-                velocities[axis, side] = velocity or 0.0
+                velocities[axis, side, :dimension] = velocity or 0.0
+        for axis, side in self.free_slip:
+            velocities[axis, side, dimension] = 1.0
         return np.array(self.lower, np.float64), np.array(self.upper, np.float64), kinds, velocities
 
 

@@ -44,7 +44,7 @@ def wall_particles(box: Box, spacing: float, layers: int) -> WallParticles:
     if not layers:  # walls that mirror; without this, all places of the fluid would be gone through
         none = np.empty((0, dimension))
         return WallParticles(none, none, none, np.empty(0), np.empty(0, np.int64))
-    _, _, _, wall_velocities = box.arrays()
+    wall_velocities = box.arrays()[3][..., :dimension]
     cells = [max(1, round((high - low) / spacing)) for low, high in zip(box.lower, box.upper, strict=True)]
     ranges = [range(-layers, n + layers) if axis in box.wall_axes else range(n) for axis, n in enumerate(cells)]
     number: dict[tuple[int, ...], int] = {}

@@ -27,7 +27,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
     """Write the velocities of the entries that were reflected at the walls of one axis alone, and of those on them.
 
     An image in a corner, reflected twice, has the velocity of its particle: what reflecting it at one wall after the
-    other gives, in the mean of both orders.
+    other gives, in the mean of both orders. At a wall that fluid slips along only the velocity across it is reflected.
 
     Args:
         v: (N, d), of the particles.
@@ -38,7 +38,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
         upper: its upper corner.
         kinds: of its sides.
         axis: whose walls are meant.
-        velocities: (2, d), of these walls.
+        velocities: (2, d + 1), of these walls, and whether fluid slips along them.
         spacing: of the particles.
         a: (nodes, 2, d), slopes along the walls.
         b: (nodes, 2, d), curvatures.
@@ -56,6 +56,10 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
                     velocity[e, k] = velocities[side, k]
             elif bits == alone:
                 i = source[e]
+                if velocities[side, dimension] > 0.5:
+                    for k in range(dimension):
+                        velocity[e, k] = -v[i, k] if k == axis else v[i, k]
+                    continue
                 depth = positions[e, axis] - upper[axis] if side else lower[axis] - positions[e, axis]
                 node, share = node_along(positions[e], along, lower, upper, nodes)
                 after = node + 1 if share > 0.0 else node
@@ -66,3 +70,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
                         slope = (1.0 - share) * a[node, side, k] + share * a[after, side, k]
                         bend = (1.0 - share) * b[node, side, k] + share * b[after, side, k]
                         velocity[e, k] = velocities[side, k] - slope * depth + bend * depth**2
+            elif bits & alone and velocities[side, dimension] > 0.5:  # a corner: the other wall reflects the rest
+                for k in range(dimension):
+                    if k != axis:
+                        velocity[e, k] = -velocity[e, k]

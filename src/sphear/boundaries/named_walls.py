@@ -7,7 +7,7 @@ from dataclasses import replace
 from math import inf
 from typing import Any
 
-from sphear.boundaries.conditions import NoSlip
+from sphear.boundaries.conditions import FreeSlip, NoSlip, WallCondition
 from sphear.boundaries.shapes import Circle, HalfPlane, Polygon, Rectangle, Shape
 from sphear.boundaries.shapes.base import Primitive
 from sphear.boundaries.shapes.compound import Compound
@@ -54,7 +54,7 @@ def _names(primitive: Primitive) -> list[tuple[str, str | int]]:
     return [(own or kind, "")]
 
 
-def with_conditions(region: Shape, conditions: Mapping[str, NoSlip]) -> Shape:
+def with_conditions(region: Shape, conditions: Mapping[str, WallCondition]) -> Shape:
     """The region with walls that move as conditions say.
 
     Raises:
@@ -65,10 +65,21 @@ def with_conditions(region: Shape, conditions: Mapping[str, NoSlip]) -> Shape:
     for name, condition in conditions.items():
         if name not in walls:
             raise unknown("wall", name, walls)
-        if condition.moving:
-            primitive, side = walls[name]
+        primitive, side = walls[name]
+        if isinstance(condition, FreeSlip):
+            moved[id(primitive)] = _slipping(moved.get(id(primitive), primitive), side)
+        elif condition.moving:
             moved[id(primitive)] = _moving(moved.get(id(primitive), primitive), side, name, condition)
     return _rebuilt(region, moved)
+
+
+def _slipping(primitive: Primitive, side: str | int) -> Primitive:
+    """A primitive with a wall that fluid slips along."""
+    shape: Any = primitive
+    if not hasattr(shape, "slips"):
+        raise SphearError(f"fluid sticks to the walls of a {type(primitive).__name__}: they cannot have FreeSlip()")
+    changed: Primitive = replace(shape, slips=True if side == "" else (*shape.slips, side))
+    return changed
 
 
 def _moving(primitive: Primitive, side: str | int, name: str, condition: NoSlip) -> Primitive:

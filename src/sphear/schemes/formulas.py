@@ -160,6 +160,8 @@ def _parts(
 def _wall(
     settings: WeaklyCompressible, problem: Problem, kernel: Kernel
 ) -> VelocityBeforeWall | FluidBeforeWall | None:
+    if problem.box.free_slip:
+        _check_free_slip(settings)
     if settings.walls == "mirror" or not problem.box.wall_axes:
         return None
     if settings.walls == "adami":
@@ -170,3 +172,17 @@ def _wall(
             f" {settings.wall_velocity}"
         )
     return VelocityBeforeWall(kernel, FIT_DEGREES[settings.wall_velocity])
+
+
+def _check_free_slip(settings: WeaklyCompressible) -> None:
+    """Refuse wall models that cannot let fluid slip."""
+    for name, other, instead in (
+        ("walls", settings.walls != "mirror", "mirror"),
+        ("wall_velocity", settings.wall_velocity in ("global_quadratic", "global"), "quadratic"),
+        ("wall_particles", settings.wall_particles, False),
+    ):
+        if other:
+            raise SphearError(
+                f"fluid slips along walls of walls=mirror, each by itself: {name}={getattr(settings, name)} cannot let"
+                f" it, take {name}={instead}"
+            )

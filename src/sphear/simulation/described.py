@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from sphear.boundaries.conditions import NoSlip
+from sphear.boundaries.conditions import NoSlip, Periodic
 from sphear.simulation.region import known_walls
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def _limits(limits: dict[str, float]) -> str:
 def _boundaries(simulation: Simulation) -> list[tuple[str, str]]:
     """Axes along which the flow repeats, and the walls that are left, with their conditions."""
     boundaries = simulation.boundaries
-    periodic = [name for name, condition in boundaries.items() if not isinstance(condition, NoSlip)]
+    periodic = [name for name, condition in boundaries.items() if isinstance(condition, Periodic)]
     gone = {side for axis in periodic for side in SIDES[axis]}
     walls = [name for name in known_walls(simulation.region) if name not in SIDES and name not in gone]
     return [(name, repr(boundaries.get(name, NoSlip()))) for name in (*periodic, *walls)]

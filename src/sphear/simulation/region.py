@@ -9,7 +9,7 @@ from typing import Any, get_args
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.boundaries.conditions import Condition, NoSlip
+from sphear.boundaries.conditions import Condition, Periodic, WallCondition
 from sphear.boundaries.named_walls import unbounded, walls_by_name, with_conditions
 from sphear.boundaries.shapes import Rectangle, Shape
 from sphear.boundaries.shapes.fastest import fastest
@@ -101,7 +101,7 @@ def _within(filled: Shape, positions: Array) -> Array:
     return found
 
 
-def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[int, ...], dict[str, NoSlip]]:
+def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[int, ...], dict[str, WallCondition]]:
     """The periodic axes, and the conditions of walls by name."""
     given: object = boundaries
     if not isinstance(given, Mapping):
@@ -112,7 +112,7 @@ def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[i
             raise unknown("wall", quoted(name) if not isinstance(name, str) else name, known)
         if not isinstance(condition, get_args(Condition)):
             raise SphearError(f"the boundary {name!r} has a condition, such as NoSlip(), not {quoted(condition)}")
-        if isinstance(condition, NoSlip):
+        if not isinstance(condition, Periodic):
             conditions[name] = condition
         elif name in AXES:
             axes.append(AXES.index(name))
@@ -134,12 +134,15 @@ def _box_and_shape(region: Shape, axes: tuple[int, ...]) -> tuple[Box, Shape | N
         mine = ends.get(last, ())
         if all(side in mine for side in moving):
             low, high = (moving.get(side, ()) for side in mine) if mine else ((), ())
-            return Box(lower, upper, sides, lower_velocity=low, upper_velocity=high), None
+            free = tuple((axis, end) for axis in ends for end in (0, 1) if ends[axis][end] in region.slips)
+            return Box(lower, upper, sides, lower_velocity=low, upper_velocity=high, free_slip=free), None
     for name, (primitive, side) in walls_by_name(region).items():
-        if isinstance(primitive, Rectangle) and side in dict(primitive.velocities):
+        if isinstance(primitive, Rectangle) and (side in dict(primitive.velocities) or side in primitive.slips):
             axis = 0 if side in ("left", "right") else 1
             if axis in axes:
-                raise SphearError(f"the flow repeats along {AXES[axis]}, so that there is no wall {name!r} to move")
+                raise SphearError(
+                    f"the flow repeats along {AXES[axis]}, so that there is no wall {name!r} for a condition"
+                )
     return Box(lower, upper, sides), unbounded(region, axes, lower, upper)
 
 

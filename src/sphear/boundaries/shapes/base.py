@@ -19,13 +19,17 @@ Vector = tuple[float, float]
 ROUNDING = 1e-12  # relative to the coordinates: two distances that differ by less are equal
 
 
+SLIPS = 1e140  # the first component of the "velocity" of a wall that fluid slips along: no wall is as fast
+
+
 class Foot(NamedTuple):
     """The nearest point of a wall, seen from N points.
 
     Attributes:
         distance: (N,), to it, negative in the solid.
         normal: (N, 2), the unit vector into the fluid.
-        velocity: (N, 2), of the wall there.
+        velocity: (N, 2), of the wall there; `SLIPS` and 0 where fluid slips along it, so that beside others, which are
+            slower, it never counts.
     """
 
     distance: Array
@@ -193,6 +197,12 @@ def slowest(chosen: Array, velocities: Array) -> Array:
     velocities = np.broadcast_to(velocities, (*chosen.shape, 2))
     best = np.argmin(np.where(chosen, (velocities**2).sum(axis=-1), inf), axis=1)
     return np.asarray(velocities[np.arange(len(best)), best])
+
+
+def slipping(velocities: Array) -> Array:
+    """Of which walls, of velocities (N, 2), the fluid slips along, (N,)."""
+    found: Array = velocities[:, 0] == SLIPS
+    return found
 
 
 def check_name(name: object) -> None:

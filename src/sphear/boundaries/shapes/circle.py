@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import Array, Foot, Primitive, Vector, check_name, number, plane_vector, text
+from sphear.boundaries.shapes.base import SLIPS, Array, Foot, Primitive, Vector, check_name, number, plane_vector, text
 from sphear.boundaries.shapes.rows import behind
 from sphear.errors import SphearError
 from sphear.neighbours.domain import Domain
@@ -22,6 +22,7 @@ class Circle(Primitive):
         centre: c.
         radius: R.
         spin: angular velocity of the wall about its centre, anticlockwise, in radians a time.
+        slips: whether fluid slips along its wall.
         name: by which conditions of its walls are given.
 
     Raises:
@@ -31,6 +32,7 @@ class Circle(Primitive):
     centre: Vector
     radius: float
     spin: float = 0.0
+    slips: bool = field(default=False, kw_only=True, repr=False)
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -63,6 +65,8 @@ class Circle(Primitive):
         apart = r > 0
         outward = np.where(apart[:, None], from_centre / np.where(apart, r, 1.0)[:, None], np.array([1.0, 0.0]))
         turning = self.spin * self.radius * np.column_stack((-outward[:, 1], outward[:, 0]))
+        if self.slips:
+            turning[:] = SLIPS, 0.0
         return Foot(self.radius - r, -outward, turning)
 
     def outline(self, step: float, window: Domain) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import Shape
+from sphear.boundaries.shapes.base import Shape, slipping
 from sphear.neighbours.domain import Domain
 
 
@@ -14,5 +14,6 @@ def fastest(shape: Shape, spacing: float, window: Domain) -> float:
     for primitive, _ in shape.primitives():
         walls = primitive.outline(spacing, window)
         if len(walls):
-            speeds.append(float(np.hypot(*primitive.wall_velocity(walls).T).max()))
+            velocities = primitive.wall_velocity(walls)
+            speeds.append(float(np.hypot(*velocities[~slipping(velocities)].T).max(initial=0.0)))
     return max(speeds)

@@ -8,7 +8,17 @@ from math import hypot, inf
 
 import numpy as np
 
-from sphear.boundaries.shapes.base import ROUNDING, Array, Foot, Primitive, Vector, check_name, plane_vector, text
+from sphear.boundaries.shapes.base import (
+    ROUNDING,
+    SLIPS,
+    Array,
+    Foot,
+    Primitive,
+    Vector,
+    check_name,
+    plane_vector,
+    text,
+)
 from sphear.boundaries.shapes.rows import SLACK, behind, grid, window_ticks
 from sphear.errors import SphearError
 from sphear.neighbours.domain import Domain
@@ -22,6 +32,7 @@ class HalfPlane(Primitive):
         point: p, any on the wall.
         inward: its normal n, into the fluid; of any length but zero, kept with length one.
         velocity: of the wall, along itself.
+        slips: whether fluid slips along it.
         name: by which conditions of its walls are given.
 
     Raises:
@@ -31,6 +42,7 @@ class HalfPlane(Primitive):
     point: Vector
     inward: Vector
     velocity: Vector = (0.0, 0.0)
+    slips: bool = field(default=False, kw_only=True, repr=False)
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -69,7 +81,8 @@ class HalfPlane(Primitive):
     def seen_from(self, points: Array) -> Foot:
         """Distance, normal and velocity of the wall."""
         distance = (points - np.array(self.point)) @ np.array(self.inward)
-        return Foot(distance, np.tile(self.inward, (len(points), 1)), np.tile(self.velocity, (len(points), 1)))
+        velocity = (SLIPS, 0.0) if self.slips else self.velocity
+        return Foot(distance, np.tile(self.inward, (len(points), 1)), np.tile(velocity, (len(points), 1)))
 
     def outline(self, step: float, window: Domain) -> Array:
         """Points on the wall, as far as the window reaches."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from sphear.boundaries.shapes.base import (
     ROUNDING,
+    SLIPS,
     Array,
     Foot,
     Primitive,
@@ -37,6 +38,7 @@ class Polygon(Primitive):
     Args:
         vertices: three or more, in either orientation.
         velocities: of the edges that slide, each along itself, by number: edge i begins at vertex i.
+        slips: edges that fluid slips along, by number.
         name: by which conditions of its walls are given.
 
     Raises:
@@ -45,6 +47,7 @@ class Polygon(Primitive):
 
     vertices: Sequence[Vector]
     velocities: Mapping[int, Vector] | tuple[tuple[int, Vector], ...] = ()
+    slips: tuple[int, ...] = field(default=(), kw_only=True, repr=False)
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -90,6 +93,7 @@ class Polygon(Primitive):
         speeds = np.zeros((len(starts), 2))
         for edge, velocity in dict(self.velocities).items():
             speeds[edge] = velocity
+        speeds[list(self.slips)] = SLIPS, 0.0
         count = len(points)
         nearest, to_foot = np.empty(count), np.zeros((count, 2))
         facing, slow = np.zeros((count, 2)), np.zeros((count, 2))

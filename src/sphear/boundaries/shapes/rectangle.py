@@ -10,6 +10,7 @@ import numpy as np
 
 from sphear.boundaries.shapes.base import (
     ROUNDING,
+    SLIPS,
     Array,
     Foot,
     Primitive,
@@ -39,6 +40,7 @@ class Rectangle(Primitive):
         lower: the lower corner; -inf where there is no wall.
         upper: the upper corner; inf where there is no wall.
         velocities: of the sides "left", "right", "lower" and "upper" that slide, each along itself.
+        slips: sides that fluid slips along.
         name: by which conditions of its walls are given.
 
     Raises:
@@ -48,6 +50,7 @@ class Rectangle(Primitive):
     lower: Vector
     upper: Vector
     velocities: Mapping[str, Vector] | tuple[tuple[str, Vector], ...] = ()
+    slips: tuple[str, ...] = field(default=(), kw_only=True, repr=False)
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -68,6 +71,9 @@ class Rectangle(Primitive):
                     " only along itself"
                 )
             kept.append((side, velocity))
+        for side in self.slips:
+            if side not in SIDES:
+                raise unknown("side of a rectangle", side, SIDES)
         object.__setattr__(self, "lower", lower)
         object.__setattr__(self, "upper", upper)
         object.__setattr__(self, "velocities", tuple(sorted(kept, key=lambda pair: SIDES.index(pair[0]))))
@@ -105,7 +111,8 @@ class Rectangle(Primitive):
         out = (outer > tiny) & (inner < 0)
         normal[out] = into[out] / outer[out, None]
         moving = dict(self.velocities)
-        speeds = np.array([moving.get(side, (0.0, 0.0)) for side in SIDES])
+        free = dict.fromkeys(self.slips, (SLIPS, 0.0))
+        speeds = np.array([{**moving, **free}.get(side, (0.0, 0.0)) for side in SIDES])
         return Foot(np.where(inner < 0, -outer, inner), normal, slowest(near, speeds))
 
     def outline(self, step: float, window: Domain) -> Array:

@@ -77,7 +77,8 @@ def between_walls(box: Box) -> Shape | None:
     velocities = {
         names[side]: (float(velocity[0]), float(velocity[1])) for side, velocity in moving.items() if velocity
     }
-    return Rectangle((left, lower), (right, upper), velocities=velocities)
+    free = tuple(names[side] for side in box.free_slip)
+    return Rectangle((left, lower), (right, upper), velocities=velocities, slips=free)
 
 
 def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, supports: int) -> Walls | None:

@@ -9,6 +9,7 @@ from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
 from sphear.boundaries.shapes import Dummies
+from sphear.boundaries.shapes.base import slipping
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import LEAST_PIVOT, PointFit, PointWeights
 from sphear.interactions.wall_fit import WallFit, WallWeights
@@ -63,7 +64,8 @@ class Walls:
         self.dummies, self.spacing, self.domain, self.adami = dummies, spacing, domain, adami
         self.count = len(dummies.positions)
         self.on_wall = int((dummies.depths <= 0).sum())
-        self.depths, self.normals, self.velocities = dummies.depths, dummies.normals, dummies.velocities
+        self.depths, self.normals, self.slips = dummies.depths, dummies.normals, slipping(dummies.velocities)
+        self.velocities = np.where(self.slips[:, None], 0.0, dummies.velocities)
         self.accelerations = np.zeros_like(dummies.velocities) if accelerations is None else accelerations
         self.feet = dummies.feet
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
@@ -120,7 +122,10 @@ class Walls:
         return matrix[back]
 
     def continued(self, rows: WallRows, velocities: Array) -> Array:
-        """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it."""
+        """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it.
+
+        Behind walls that fluid slips along they are mirrored, so that nothing is sheared there.
+        """
         if self.wall_velocity == "wall":
             behind = self.velocities
         elif rows.continued is None:
@@ -129,6 +134,8 @@ class Walls:
         else:
             total = np.asarray(rows.continued.sum(axis=1)).reshape(-1, 1)
             behind = rows.continued @ velocities + (1.0 - total) * self.velocities
+        if self.slips.any():
+            behind = np.where(self.slips[:, None], self.slipping(rows, velocities)[len(velocities) :], behind)
         return np.concatenate((velocities, behind))
 
     def slipping(self, rows: WallRows, velocities: Array, since: float = 0.0) -> Array:
