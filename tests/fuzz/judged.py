@@ -20,6 +20,7 @@ from .calls import Call
 from .commands import Command
 
 LONGEST = 700  # letters of a sentence; the names of all settings are 400
+NOTICE = "compiling (once; kept in "
 SECONDS, BYTES = 20, 2 << 30  # of processor time
 WAITED = 180  # seconds on the clock: others may be using the machine
 
@@ -95,6 +96,8 @@ def fault_of_call(call: Call) -> str | None:
 
 
 def _fault_of_sentence(sentence: str) -> str | None:
+    if sentence.startswith(NOTICE):  # said before the answer, where something was not compiled yet
+        sentence = sentence.partition("\n")[2]
     if len(sentence) > LONGEST:
         return f"{len(sentence)} letters: {sentence[:100]}"
     if not sentence.strip() or "\n" in sentence or "Traceback" in sentence:
