@@ -24,7 +24,7 @@ def places(axis: int) -> Array:
     return x
 
 
-def continued(rule: str, profile: Callable[[Array], Array], axis: int = 1, **walls: tuple[float, float]) -> Array:
+def continued(rule: str, profile: Callable[[Array], Array], axis: int = 1, **walls: Any) -> Array:
     """The tangential velocity at depths behind the lower and the upper wall, (2, depths)."""
     sides: tuple[Any, ...] = ("periodic", "walls") if axis else ("walls", "periodic")
     lower_corner = tuple(-0.3 if k == axis else 0.0 for k in range(2))

@@ -113,6 +113,8 @@ class Run:
                     self._try_to_save(keep, safe, warn)
                     savings.tried(began, self.flow.steps)
             self._look(last=True)
+            for observer in self.observers:
+                observer.finish(self)
         except KeyboardInterrupt:  # Ctrl-C comes as the compiled loop returns, before the clock knows its steps
             self._go_back(safe)
             if keep is not None:

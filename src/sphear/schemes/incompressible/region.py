@@ -113,7 +113,18 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
         settings.neumann == "adami",
         problem.free_surface,
         accelerations(shape, behind, dx, window),
+        curvatures(shape, behind, dx, window),
     )
+
+
+def curvatures(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
+    """(W,): of the walls at the feet of dummies, 1 / R around fluid in a circle, -1 / R around a cylinder, else 0."""
+    result = np.zeros(len(behind.positions))
+    for primitive, inverted in shape.primitives():
+        if isinstance(primitive, Circle) and primitive.slips:
+            distance = np.abs(repeated(primitive, window).distance(behind.feet))
+            result[distance < LITTLE * spacing] = (-1.0 if inverted else 1.0) / primitive.radius
+    return result
 
 
 def accelerations(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:

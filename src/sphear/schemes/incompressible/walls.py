@@ -48,6 +48,7 @@ class Walls:
         adami: fields are those of the fluid around a dummy, not at its mirror point.
         free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
         accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
+        curvatures: (W,), of the walls at the feet, positive around fluid; None is none.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Walls:
         adami: bool,
         free_surface: bool = False,
         accelerations: Array | None = None,
+        curvatures: Array | None = None,
     ) -> None:
         self.dummies, self.spacing, self.domain, self.adami = dummies, spacing, domain, adami
         self.count = len(dummies.positions)
@@ -67,6 +69,7 @@ class Walls:
         self.depths, self.normals, self.slips = dummies.depths, dummies.normals, slipping(dummies.velocities)
         self.velocities = np.where(self.slips[:, None], 0.0, dummies.velocities)
         self.accelerations = np.zeros_like(dummies.velocities) if accelerations is None else accelerations
+        self.curvatures = np.zeros(self.count) if curvatures is None else curvatures
         self.feet = dummies.feet
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
         self.mirrors = dummies.positions if adami else self.images
@@ -135,8 +138,20 @@ class Walls:
             total = np.asarray(rows.continued.sum(axis=1)).reshape(-1, 1)
             behind = rows.continued @ velocities + (1.0 - total) * self.velocities
         if self.slips.any():
-            behind = np.where(self.slips[:, None], self.slipping(rows, velocities)[len(velocities) :], behind)
+            behind = np.where(self.slips[:, None], self._sheared_by_nothing(rows, velocities), behind)
         return np.concatenate((velocities, behind))
+
+    def _sheared_by_nothing(self, rows: WallRows, velocities: Array) -> Array:
+        """(W, d): velocities behind walls that no shear stress is on.
+
+        Along a straight wall they are the fluid's; along a circle they grow with the distance from its centre, as where
+        fluid turns with it.
+        """
+        behind = self.slipping(rows, velocities)[len(velocities) :]
+        across = (behind * self.normals).sum(axis=1, keepdims=True) * self.normals
+        bent = (self.curvatures * self.depths)[:, None]
+        result: Array = across + (behind - across) * (1.0 + bent) / (1.0 - bent)
+        return result
 
     def slipping(self, rows: WallRows, velocities: Array, since: float = 0.0) -> Array:
         """(N + W, d): behind walls the velocity along the wall is the fluid's, that across it the opposite.

@@ -58,6 +58,9 @@ class Observer:
     def start(self, run: Run) -> None:
         """Begin to watch a run: called once, before its first step."""
 
+    def finish(self, run: Run) -> None:
+        """Close a run that has come to its end, or to one of its ends: called after the last look."""
+
     def look(self, run: Run) -> Any:
         """What is kept of a run as it stands; None keeps nothing."""
         raise NotImplementedError

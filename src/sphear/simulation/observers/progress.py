@@ -35,7 +35,14 @@ class Progress(Observer):
 
     def look(self, run: Run) -> None:
         """Print a line if a second has passed."""
-        if run.end or time.monotonic() - self._last >= OFTEN:
+        if time.monotonic() - self._last >= OFTEN:
             self._last = time.monotonic()
-            sys.stderr.write(f"{run.standing()}{f', end: {run.end}' if run.end else ''}\n")
-            sys.stderr.flush()
+            self._say(run.standing())
+
+    def finish(self, run: Run) -> None:
+        """Print how it ended."""
+        self._say(f"{run.standing()}, end: {run.end}")
+
+    def _say(self, line: str) -> None:
+        sys.stderr.write(f"{line}\n")
+        sys.stderr.flush()
