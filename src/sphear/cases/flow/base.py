@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -44,47 +44,61 @@ class Comparison(NamedTuple):
     table: bool = False
 
 
-@dataclass(frozen=True)
-class FlowCase:
+class FlowCase(ABC):
     """A flow with a reference solution.
 
     Attributes:
         name: on the command line.
         defaults: settings that differ from the general ones, for each scheme that computes it; the first is taken if
             nothing is said.
-        problem: what is to be computed, from the settings.
-        comparisons: profiles beside the reference, by name.
-        time_unit: what `until` and the printed times are multiples of, from the settings.
-        time_name: how that time is called.
-        metrics: errors and the like at one moment, by name.
-        ended: why a run is over at one moment, from its metrics: "steady", "failed: ...", what else ends it, or None.
-        ends: what `ended` may say beside "steady" and "failed: ...".
-        summary: what is found at the end, beside the metrics; `reference_missing` is a sentence on what could not be
-            compared.
-        profiles: numbers along lines, at the end, that are kept with the results of a sweep.
+        time_name: name of the time that `until` and the printed times are in.
         headline: the metric that is drawn against time.
-        known: that metric where others have it, times and values; None where nobody has.
-        kinds: settings with more than the general ones, by scheme, where the case has any of its own.
-        presets: what a paper has otherwise for this case, by the name of the preset.
+        ends: what `ended` may say beside "steady" and "failed: ...".
         horizon: when a run without `until` is expected to end, in the time unit; None if it has no end of its own.
+        kinds: settings with more than the general ones, by scheme, where the case has any of its own.
+        presets: settings that a preset has for this case, by its name.
     """
 
-    name: str
-    defaults: dict[str, dict[str, Any]]
-    problem: Callable[[Settings], Problem]
-    comparisons: Callable[[Settings, FlowInTime], dict[str, Comparison]]
-    time_unit: Callable[[Settings], float]
-    time_name: str
-    metrics: Callable[[Settings, FlowInTime], dict[str, float]]
-    ended: Callable[[Settings, FlowInTime, dict[str, float]], str | None]
-    ends: tuple[str, ...] = ()
-    summary: Callable[[Settings, FlowInTime], dict[str, Any]] = lambda settings, flow: {}
-    profiles: Callable[[Settings, FlowInTime], dict[str, list[float]]] = lambda settings, flow: {}
-    headline: str = "rms_error"
-    known: Callable[[Settings], tuple[Array, Array] | None] = lambda settings: None
-    horizon: float | None = None
-    kinds: Mapping[str, type[Settings]] = field(default_factory=dict)
-    presets: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    name: ClassVar[str]
+    defaults: ClassVar[Mapping[str, Mapping[str, Any]]]
+    time_name: ClassVar[str]
+    headline: ClassVar[str] = "rms_error"
+    ends: ClassVar[tuple[str, ...]] = ()
+    horizon: ClassVar[float | None] = None
+    kinds: ClassVar[Mapping[str, type[Settings]]] = {}
+    presets: ClassVar[Mapping[str, Mapping[str, Any]]] = {}
+
+    @abstractmethod
+    def problem(self, settings: Settings) -> Problem:
+        """The flow that is computed."""
+
+    @abstractmethod
+    def time_unit(self, settings: Settings) -> float:
+        """The time that `until` and the printed times are multiples of."""
+
+    @abstractmethod
+    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+        """Errors and the like at one moment, by name."""
+
+    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+        """The reason for which a run is over at one moment, from its metrics: "steady", "failed: ...", or None."""
+        return None
+
+    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+        """Findings at the end, beside the metrics; `reference_missing` says in a sentence what is not compared."""
+        return {}
+
+    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+        """Profiles beside the reference, by name."""
+        return {}
+
+    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+        """Numbers along lines, at the end, that are kept with the results of a sweep."""
+        return {}
+
+    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+        """The headline where others have it, times and values; None where nobody has."""
+        return None
 
     def settings(self, **changes: Any) -> Settings:
         """The settings of this case with some changed.

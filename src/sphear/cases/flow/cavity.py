@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -24,22 +24,6 @@ EQUAL = 5e-3  # of a time: times that differ by less are equal
 STEADY = 0.2  # nu t / L^2, from which on the flow counts as steady
 LEAST_ENERGY = 1e-12  # of the fluid at the lid's speed: below, nothing is relative to it
 STATIONS = np.linspace(0.0, 1.0, 66)[1:-1]  # where the centreline profiles are compared, the walls left out
-
-
-def problem(settings: Settings) -> Problem:
-    """A square of particles at rest between four walls, of which the upper one slides."""
-    positions, spacing = particles_between(BOX, settings)
-    return Problem(
-        positions=positions,
-        velocities=np.zeros_like(positions),
-        box=BOX,
-        body_force=(0.0, 0.0),
-        spacing=spacing,
-        density=DENSITY,
-        kinematic_viscosity=LID_SPEED * SIDE / settings.reynolds,
-        speed=LID_SPEED,
-        length=SIDE,
-    )
 
 
 def reference(settings: Settings, time: float) -> references.CavityFlow | None:
@@ -74,11 +58,6 @@ def steady(settings: Settings, time: float) -> bool:
     return time >= steady_from(settings) * (1 - EQUAL)
 
 
-def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
-    """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
-    return energy(next(iter(flows(settings)), None), flow)
-
-
 def energy(known: references.CavityFlow | None, flow: FlowInTime) -> dict[str, float]:
     """Kinetic energy and, where a reference is known at this time, what it is too much in parts of that."""
     kinetic = kinetic_energy(flow)
@@ -102,15 +81,6 @@ def centrelines(flow: FlowInTime) -> Lines:
         inside = np.ones(len(STATIONS), bool) if shape is None else shape.distance(points) > 0
         found[name] = STATIONS[inside], interpolated(flow, points[inside])[:, component]
     return found
-
-
-def summary(settings: Settings, flow: FlowInTime) -> dict[str, Any]:
-    """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u.
-
-    Without a reference of this time, it is said which there are.
-    """
-    found = deviations(reference(settings, flow.time), centrelines(flow))
-    return found | missing(flow.time, flows(settings), steady_from(settings))
 
 
 def missing(time: float, known: Sequence[references.CavityFlow], from_when: float) -> dict[str, str]:
@@ -148,17 +118,6 @@ def deviations(known: references.CavityFlow | None, lines: Lines) -> dict[str, f
     return found
 
 
-def profiles(settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
-    """Both centreline profiles, to be kept."""
-    lines = centrelines(flow)
-    return {"stations": STATIONS.tolist(), **{name: values.tolist() for name, (_, values) in lines.items()}}
-
-
-def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
-    """Both centreline profiles."""
-    return beside(reference(settings, flow.time), centrelines(flow))
-
-
 def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Comparison]:
     """Both centreline profiles with those of a reference."""
     nothing = np.empty(0)
@@ -177,20 +136,59 @@ def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Compa
     return found
 
 
-CAVITY = FlowCase(
-    name="cavity",
-    defaults={
+class Cavity(FlowCase):
+    """The lid-driven cavity from rest (Basa, Quinlan & Lastiwka 2009, section 6.2)."""
+
+    name = "cavity"
+    defaults: ClassVar[Mapping[str, Mapping[str, Any]]] = {
         "explicit": {"reynolds": 100.0, "resolution": 50, "until": 20.0},
         "incompressible": {"reynolds": 100.0, "resolution": 50, "until": 20.0},
-    },
-    presets={"basa2009": {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}},  # section 6.2
-    problem=problem,
-    comparisons=comparisons,
-    time_unit=lambda settings: SIDE / LID_SPEED,
-    time_name="t",
-    metrics=metrics,
-    ended=lambda settings, flow, found: None,
-    summary=summary,
-    profiles=profiles,
-    headline="kinetic_energy",
-)
+    }
+    presets: ClassVar[Mapping[str, Mapping[str, Any]]] = {
+        "basa2009": {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}
+    }
+    time_name = "t"
+    headline = "kinetic_energy"
+
+    def problem(self, settings: Settings) -> Problem:
+        """A square of particles at rest between four walls, of which the upper one slides."""
+        positions, spacing = particles_between(BOX, settings)
+        return Problem(
+            positions=positions,
+            velocities=np.zeros_like(positions),
+            box=BOX,
+            body_force=(0.0, 0.0),
+            spacing=spacing,
+            density=DENSITY,
+            kinematic_viscosity=LID_SPEED * SIDE / settings.reynolds,
+            speed=LID_SPEED,
+            length=SIDE,
+        )
+
+    def time_unit(self, settings: Settings) -> float:
+        """The side over the speed of the lid."""
+        return SIDE / LID_SPEED
+
+    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+        """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
+        return energy(next(iter(flows(settings)), None), flow)
+
+    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+        """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u.
+
+        Without a reference of this time, it is said which there are.
+        """
+        found = deviations(reference(settings, flow.time), centrelines(flow))
+        return found | missing(flow.time, flows(settings), steady_from(settings))
+
+    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+        """Both centreline profiles."""
+        return beside(reference(settings, flow.time), centrelines(flow))
+
+    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+        """Both centreline profiles, to be kept."""
+        lines = centrelines(flow)
+        return {"stations": STATIONS.tolist(), **{name: values.tolist() for name, (_, values) in lines.items()}}
+
+
+CAVITY = Cavity()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -55,58 +56,6 @@ def speed(settings: Settings) -> float:
     return math.sqrt(settings.column * GRAVITY * WIDTH)
 
 
-def problem(settings: Settings) -> Problem:
-    """A column of fluid at rest in the corner of a tank, `resolution` particles wide."""
-    assert isinstance(settings, DamBreakSettings)
-    if settings.initial != "lattice":
-        raise SphearError(f"the column of dam-break starts from initial=lattice, not from initial={settings.initial}")
-    check_size("resolution", settings.resolution, (1.0, settings.column))
-    spacing = WIDTH / settings.resolution
-    if settings.column * WIDTH < FEWEST * spacing or settings.resolution < FEWEST:
-        raise SphearError(
-            f"a column of dam-break is at least {FEWEST} particles wide and high, and column={settings.column:g} with"
-            f" resolution={settings.resolution} is {settings.resolution} wide and"
-            f" {round(settings.column * settings.resolution)} high"
-        )
-    high = settings.column * settings.resolution
-    if abs(high - round(high)) > 1e-6:
-        raise SphearError(
-            f"the column of dam-break is whole particles high, and column={settings.column:g} with"
-            f" resolution={settings.resolution} is {high:.4g}"
-        )
-    height = settings.column * WIDTH
-    top = settings.tank_height * height
-    box = Box((0.0, 0.0), (settings.tank * WIDTH, top), ("walls", "walls"))
-    rows = [(np.arange(round(extent / spacing)) + 0.5) * spacing for extent in (WIDTH, height)]
-    positions = np.stack(np.meshgrid(*rows, indexing="ij"), axis=-1).reshape(-1, 2)
-    return Problem(
-        positions=positions,
-        velocities=np.zeros_like(positions),
-        box=box,
-        body_force=(0.0, -GRAVITY),
-        spacing=spacing,
-        density=DENSITY,
-        kinematic_viscosity=speed(settings) * WIDTH / settings.reynolds,
-        speed=2.0 * speed(settings),  # of the front of a shallow dam break, 2 sqrt(g H)
-        length=WIDTH,
-        shape=Rectangle((0.0, 0.0), (settings.tank * WIDTH, top)),
-        free_surface=True,
-    )
-
-
-def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
-    """The front's and the column's place over the width, and the energy over that of the start."""
-    x, dx = flow.positions, flow.problem.spacing
-    kinetic = 0.5 * (flow.velocities**2).sum()
-    potential = GRAVITY * x[:, 1].sum()
-    start = flow.problem.positions[:, 1].sum() * GRAVITY
-    return {
-        "front": float((x[:, 0].max() + 0.5 * dx) / WIDTH),
-        "height": float((standing(np.sort(x[x[:, 0] < 2 * dx, 1]), dx) + 0.5 * dx) / WIDTH),
-        "energy": float((kinetic + potential) / start),
-    }
-
-
 def standing(heights: Array, dx: float) -> float:
     """The highest of increasing heights that are one above the other without a gap, from the floor on."""
     gaps = np.flatnonzero(np.diff(heights, prepend=-0.5 * dx) > GAP * dx)
@@ -114,42 +63,94 @@ def standing(heights: Array, dx: float) -> float:
     return float(reached[-1]) if len(reached) else -0.5 * dx
 
 
-def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
-    """Where the front meets the opposite wall."""
-    assert isinstance(settings, DamBreakSettings)
-    return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
+class DamBreak(FlowCase):
+    """A column of fluid that collapses (Martin & Moyce 1952)."""
+
+    name = "dam-break"
+    defaults: ClassVar[Mapping[str, Mapping[str, Any]]] = {
+        "incompressible": {"reynolds": 1000.0, "resolution": 20, "until": 3.3, "wall_velocity": "linear"}
+    }
+    kinds: ClassVar[Mapping[str, type[Settings]]] = {"incompressible": DamBreakSettings}
+    time_name = "t sqrt(n^2 g / a)"
+    headline = "front"
+    ends = (AT_WALL,)
+
+    def problem(self, settings: Settings) -> Problem:
+        """A column of fluid at rest in the corner of a tank, `resolution` particles wide."""
+        assert isinstance(settings, DamBreakSettings)
+        if settings.initial != "lattice":
+            raise SphearError(
+                f"the column of dam-break starts from initial=lattice, not from initial={settings.initial}"
+            )
+        check_size("resolution", settings.resolution, (1.0, settings.column))
+        spacing = WIDTH / settings.resolution
+        if settings.column * WIDTH < FEWEST * spacing or settings.resolution < FEWEST:
+            raise SphearError(
+                f"a column of dam-break is at least {FEWEST} particles wide and high, and column={settings.column:g}"
+                f" with resolution={settings.resolution} is {settings.resolution} wide and"
+                f" {round(settings.column * settings.resolution)} high"
+            )
+        high = settings.column * settings.resolution
+        if abs(high - round(high)) > 1e-6:
+            raise SphearError(
+                f"the column of dam-break is whole particles high, and column={settings.column:g} with"
+                f" resolution={settings.resolution} is {high:.4g}"
+            )
+        height = settings.column * WIDTH
+        top = settings.tank_height * height
+        box = Box((0.0, 0.0), (settings.tank * WIDTH, top), ("walls", "walls"))
+        rows = [(np.arange(round(extent / spacing)) + 0.5) * spacing for extent in (WIDTH, height)]
+        positions = np.stack(np.meshgrid(*rows, indexing="ij"), axis=-1).reshape(-1, 2)
+        return Problem(
+            positions=positions,
+            velocities=np.zeros_like(positions),
+            box=box,
+            body_force=(0.0, -GRAVITY),
+            spacing=spacing,
+            density=DENSITY,
+            kinematic_viscosity=speed(settings) * WIDTH / settings.reynolds,
+            speed=2.0 * speed(settings),  # of the front of a shallow dam break, 2 sqrt(g H)
+            length=WIDTH,
+            shape=Rectangle((0.0, 0.0), (settings.tank * WIDTH, top)),
+            free_surface=True,
+        )
+
+    def time_unit(self, settings: Settings) -> float:
+        """sqrt(a / (n^2 g))."""
+        return WIDTH / speed(settings)
+
+    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+        """The front's and the column's place over the width, and the energy over that of the start."""
+        x, dx = flow.positions, flow.problem.spacing
+        kinetic = 0.5 * (flow.velocities**2).sum()
+        potential = GRAVITY * x[:, 1].sum()
+        start = flow.problem.positions[:, 1].sum() * GRAVITY
+        return {
+            "front": float((x[:, 0].max() + 0.5 * dx) / WIDTH),
+            "height": float((standing(np.sort(x[x[:, 0] < 2 * dx, 1]), dx) + 0.5 * dx) / WIDTH),
+            "energy": float((kinetic + potential) / start),
+        }
+
+    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+        """Where the front meets the opposite wall."""
+        assert isinstance(settings, DamBreakSettings)
+        return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
+
+    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+        """How far the front is ahead of where the experiment has it, in column widths, where that is known."""
+        measured, time = self.known(settings), flow.time * speed(settings) / WIDTH
+        if measured is None:
+            return {}
+        first, last = measured[0][0], measured[0][-1]
+        if not first <= time <= last:
+            said = f"the front was measured from T = {first:g} to {last:g}, and this is T = {time:.4g}"
+            return {"reference_missing": said}
+        return {"front_deviation": self.metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
+
+    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+        """The front of the experiment, if this is its column."""
+        assert isinstance(settings, DamBreakSettings)
+        return (np.array(reference.TIMES), np.array(reference.FRONTS)) if settings.column == reference.COLUMN else None
 
 
-def summary(settings: Settings, flow: FlowInTime) -> dict[str, Any]:
-    """How far the front is ahead of where the experiment has it, in column widths, where that is known."""
-    measured, time = known(settings), flow.time * speed(settings) / WIDTH
-    if measured is None:
-        return {}
-    first, last = measured[0][0], measured[0][-1]
-    if not first <= time <= last:
-        said = f"the front was measured from T = {first:g} to {last:g}, and this is T = {time:.4g}"
-        return {"reference_missing": said}
-    return {"front_deviation": metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
-
-
-def known(settings: Settings) -> tuple[Array, Array] | None:
-    """The front of the experiment, if this is its column."""
-    assert isinstance(settings, DamBreakSettings)
-    return (np.array(reference.TIMES), np.array(reference.FRONTS)) if settings.column == reference.COLUMN else None
-
-
-DAM_BREAK = FlowCase(
-    name="dam-break",
-    defaults={"incompressible": {"reynolds": 1000.0, "resolution": 20, "until": 3.3, "wall_velocity": "linear"}},
-    kinds={"incompressible": DamBreakSettings},
-    problem=problem,
-    comparisons=lambda settings, flow: {},
-    time_unit=lambda settings: WIDTH / speed(settings),
-    time_name="t sqrt(n^2 g / a)",
-    metrics=metrics,
-    ended=ended,
-    ends=(AT_WALL,),
-    summary=summary,
-    headline="front",
-    known=known,
-)
+DAM_BREAK = DamBreak()

@@ -13,39 +13,51 @@ from sphear.schemes.incompressible.region import fluid_of
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
 
+SHARED = ("name", "defaults", "time_name", "horizon", "kinds", "presets")  # with the case without the solid
 
-def opened(case: FlowCase, settings: Settings) -> FlowCase:
-    """The case around the solid of its settings; without one, the case as it is.
+
+class AroundSolid(FlowCase):
+    """A case around a solid of the user's own.
 
     Particles in the solid are left out, those nearer to it than a quarter of a spacing moved away. What the case
     compares with and stops at holds without the solid only: its kinetic energy and the greatest speed are observed
     instead, until its end.
+
+    Args:
+        case: without the solid.
+        solid: that is no fluid.
     """
+
+    headline = "kinetic_energy"
+
+    def __init__(self, case: FlowCase, solid: Shape) -> None:
+        self.case, self.solid = case, solid
+        vars(self).update({name: getattr(case, name) for name in SHARED})
+
+    def problem(self, settings: Settings) -> Problem:
+        """That of the case with the solid in its fluid."""
+        return around(self.case.problem(settings), self.solid)
+
+    def time_unit(self, settings: Settings) -> float:
+        """That of the case."""
+        return self.case.time_unit(settings)
+
+    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+        """Kinetic energy, of a unit of depth, and the greatest speed."""
+        greatest = float(np.sqrt((flow.velocities**2).sum(axis=1).max()))
+        return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest}
+
+    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+        """At the horizon of the case, where nothing says until when."""
+        horizon = self.case.horizon if settings.until is None else None
+        return "time" if horizon is not None and flow.time >= horizon * self.time_unit(settings) else None
+
+
+def opened(case: FlowCase, settings: Settings) -> FlowCase:
+    """The case around the solid of its settings; without one, the case as it is."""
     if not isinstance(settings, IncompressibleSettings) or settings.solid == "none":
         return case
-    solid = written(settings.solid)
-
-    def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
-        horizon = case.horizon if settings.until is None else None
-        return "time" if horizon is not None and flow.time >= horizon * case.time_unit(settings) else None
-
-    return replace(
-        case,
-        problem=lambda settings: around(case.problem(settings), solid),
-        comparisons=lambda settings, flow: {},
-        metrics=lambda settings, flow: motion(flow),
-        ended=ended,
-        summary=lambda settings, flow: {},
-        profiles=lambda settings, flow: {},
-        headline="kinetic_energy",
-        known=lambda settings: None,
-    )
-
-
-def motion(flow: FlowInTime) -> dict[str, float]:
-    """Kinetic energy, of a unit of depth, and the greatest speed."""
-    greatest = float(np.sqrt((flow.velocities**2).sum(axis=1).max()))
-    return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest}
+    return AroundSolid(case, written(settings.solid))
 
 
 def around(problem: Problem, solid: Shape) -> Problem:

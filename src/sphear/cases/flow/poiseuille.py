@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -28,41 +29,6 @@ def reference(settings: Settings) -> PlanePoiseuille:
     return PlanePoiseuille.of_reynolds(settings.reynolds, HALF_WIDTH, KINEMATIC_VISCOSITY)
 
 
-def problem(settings: Settings) -> Problem:
-    """A square of particles between two walls at rest, periodic along the flow."""
-    flow = reference(settings)
-    box = Box((0.0, -HALF_WIDTH), (2 * HALF_WIDTH, HALF_WIDTH), ("periodic", "walls"))
-    positions, spacing = particles_between(box, settings)
-    return Problem(
-        positions=positions,
-        velocities=np.zeros_like(positions),
-        box=box,
-        body_force=(flow.body_force, 0.0),
-        spacing=spacing,
-        density=DENSITY,
-        kinematic_viscosity=KINEMATIC_VISCOSITY,
-        speed=flow.centreline_velocity,
-        length=HALF_WIDTH,
-    )
-
-
-def comparisons(settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
-    """The velocities of all particles beside the start-up series (36), as corrected."""
-    y = np.linspace(-HALF_WIDTH, HALF_WIDTH, 101)
-    exact = reference(settings).velocity(y, flow.time)
-    return {"u": Comparison("y", flow.positions[:, 1], flow.velocities[:, 0], y, exact)}
-
-
-def metrics(settings: Settings, flow: FlowInTime) -> dict[str, float]:
-    """RMS error (38) and kinetic energy over that of the steady flow."""
-    along = reference(settings).velocity(flow.positions[:, 1], flow.time)
-    steady = reference(settings).steady(flow.positions[:, 1])
-    return {
-        "rms_error": rms_error(flow.velocities[:, 0], along),
-        "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
-    }
-
-
 def threshold(time: float, spacing: float, initial: str = "lattice") -> float:
     """The RMS error at which a run has failed, at this time in seconds, with particles so far apart.
 
@@ -73,25 +39,61 @@ def threshold(time: float, spacing: float, initial: str = "lattice") -> float:
     return np.inf if initial == "relaxed" else BROKEN_DOWN
 
 
-def ended(settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
-    """The paper's rules: steady when the exact U(0, t)/U0 > 1 - 1e-12, failed when the RMS error reaches 12 %."""
-    most = threshold(flow.time, flow.problem.spacing, settings.initial)
-    if not found["rms_error"] < most:
-        return f"failed: the RMS error of {found['rms_error']:.1%} is at least {most:.0%}"
-    centre = reference(settings)
-    if centre.velocity(np.zeros(1), flow.time)[0] > (1 - STEADY) * centre.centreline_velocity:
-        return "steady"
-    return None
+class Poiseuille(FlowCase):
+    """The start-up of Poiseuille flow between two walls at rest (Basa, Quinlan & Lastiwka 2009, section 6.1)."""
+
+    name = "poiseuille"
+    defaults: ClassVar[Mapping[str, Mapping[str, Any]]] = {
+        name: {"reynolds": 0.5, "resolution": 20} for name in SCHEMES
+    }
+    time_name = "t*"
+    horizon = float(np.log(32 / np.pi**3 / STEADY))
+
+    def problem(self, settings: Settings) -> Problem:
+        """A square of particles between two walls at rest, periodic along the flow."""
+        flow = reference(settings)
+        box = Box((0.0, -HALF_WIDTH), (2 * HALF_WIDTH, HALF_WIDTH), ("periodic", "walls"))
+        positions, spacing = particles_between(box, settings)
+        return Problem(
+            positions=positions,
+            velocities=np.zeros_like(positions),
+            box=box,
+            body_force=(flow.body_force, 0.0),
+            spacing=spacing,
+            density=DENSITY,
+            kinematic_viscosity=KINEMATIC_VISCOSITY,
+            speed=flow.centreline_velocity,
+            length=HALF_WIDTH,
+        )
+
+    def time_unit(self, settings: Settings) -> float:
+        """The time t* = 1 (eq. 39), in seconds."""
+        return reference(settings).time(1.0)
+
+    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+        """RMS error (38) and kinetic energy over that of the steady flow."""
+        along = reference(settings).velocity(flow.positions[:, 1], flow.time)
+        steady = reference(settings).steady(flow.positions[:, 1])
+        return {
+            "rms_error": rms_error(flow.velocities[:, 0], along),
+            "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
+        }
+
+    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+        """The paper's rules: steady when the exact U(0, t)/U0 > 1 - 1e-12, failed when the RMS error reaches 12 %."""
+        most = threshold(flow.time, flow.problem.spacing, settings.initial)
+        if not found["rms_error"] < most:
+            return f"failed: the RMS error of {found['rms_error']:.1%} is at least {most:.0%}"
+        centre = reference(settings)
+        if centre.velocity(np.zeros(1), flow.time)[0] > (1 - STEADY) * centre.centreline_velocity:
+            return "steady"
+        return None
+
+    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+        """The velocities of all particles beside the start-up series (36), as corrected."""
+        y = np.linspace(-HALF_WIDTH, HALF_WIDTH, 101)
+        exact = reference(settings).velocity(y, flow.time)
+        return {"u": Comparison("y", flow.positions[:, 1], flow.velocities[:, 0], y, exact)}
 
 
-POISEUILLE = FlowCase(
-    name="poiseuille",
-    defaults={name: {"reynolds": 0.5, "resolution": 20} for name in SCHEMES},
-    problem=problem,
-    comparisons=comparisons,
-    time_unit=lambda settings: reference(settings).time(1.0),
-    time_name="t*",
-    metrics=metrics,
-    ended=ended,
-    horizon=float(np.log(32 / np.pi**3 / STEADY)),  # the slowest mode of the series
-)
+POISEUILLE = Poiseuille()
