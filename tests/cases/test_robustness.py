@@ -14,7 +14,8 @@ from sphear.schemes.watch import CREATED, LARGE_CELL
 
 PATH = Path(__file__).parents[2] / "validation" / "robustness.py"
 SPEC = spec_from_file_location("robustness", PATH)
-assert SPEC is not None and SPEC.loader is not None
+assert SPEC is not None
+assert SPEC.loader is not None
 robustness = module_from_spec(SPEC)
 sys.modules["robustness"] = robustness
 SPEC.loader.exec_module(robustness)
