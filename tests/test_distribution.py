@@ -64,7 +64,7 @@ def test_the_source_distribution_has(name: str, members: set[str]) -> None:
     assert name in members
 
 
-@pytest.mark.parametrize("folder", ["src", "tests", "docs", "validation", "benchmarks"])
+@pytest.mark.parametrize("folder", ["src", "tests", "docs", "examples", "validation", "benchmarks"])
 def test_the_source_distribution_has_all_of_a_folder(folder: str, members: set[str]) -> None:
     files = {
         str(path.relative_to(ROOT))

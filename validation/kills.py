@@ -143,8 +143,8 @@ def kills(scheme: str, wanted: int, place: Path, chance: random.Random) -> dict[
 
 
 def readable(folder: Path) -> bool:
-    from sphear.simulation.saved import read
     from sphear.errors import SphearError
+    from sphear.simulation.saved import read
 
     (state,) = folder.glob("*-state.npz")
     try:

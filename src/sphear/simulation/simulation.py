@@ -13,13 +13,10 @@ from sphear.boundaries.conditions import Condition
 from sphear.boundaries.shapes import Shape
 from sphear.checked import number
 from sphear.errors import SphearError, quoted
-from sphear.names import unknown
 from sphear.schemes.base import FlowFailure, flow_in_time
 from sphear.schemes.common import Scheme
-from sphear.schemes.incompressible.settings import Incompressible
-from sphear.schemes.named import named
-from sphear.schemes.settings import WeaklyCompressible
 from sphear.schemes.watch import Watch
+from sphear.simulation.chosen_scheme import chosen_scheme
 from sphear.simulation.described import described
 from sphear.simulation.fluid import Fluid
 from sphear.simulation.observers import History, Observer
@@ -32,19 +29,7 @@ from sphear.simulation.saved import About, check, read, write
 Array = np.ndarray[Any, Any]
 
 PLENTY = 10**12  # steps
-SCHEMES: dict[str, type[Scheme]] = {"incompressible": Incompressible, "weakly_compressible": WeaklyCompressible}
 LOOKS = 200  # at the energy budget, in a run
-
-
-def _scheme(given: object) -> Any:
-    """A scheme, by its name too, with the registered names of its parts."""
-    if given is None:
-        return Incompressible()
-    if isinstance(given, str):
-        if given not in SCHEMES:
-            raise unknown("scheme", given, SCHEMES)
-        return SCHEMES[given]()
-    return named(given) if isinstance(given, Scheme) else given
 
 
 class _Plausible(Observer):
@@ -116,7 +101,7 @@ class Simulation(Run):
         given: Any = {} if boundaries is None else boundaries
         for observer in observers:
             check_observer(observer)
-        chosen = _scheme(scheme)
+        chosen = chosen_scheme(scheme)
         problem = problem_of(region, spacing, fluid, given, velocity, body_force, speed, length, filled)
         conditions = dict(given)
         super().__init__(flow_in_time(problem, chosen), Watch(problem), (_Plausible(), *observers))
@@ -247,6 +232,8 @@ class Simulation(Run):
             "boundaries": repr(self.boundaries),
             "scheme": str(self.scheme),
             "particles": self.flow.count,
+            "spacing": self.flow.problem.spacing,
+            "body_force": str(self.flow.problem.body_force),
         }
 
     def __repr__(self) -> str:
