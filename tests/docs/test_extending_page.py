@@ -22,7 +22,7 @@ X = np.random.default_rng(0).random((300, 2))
 
 @pytest.fixture
 def names(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, Any]]:
-    """What all examples define."""
+    """The names that all examples define."""
     module = ModuleType("example")
     monkeypatch.setitem(sys.modules, "example", module)
     for example in EXAMPLES:

@@ -16,7 +16,7 @@ FILE = Path(__file__).with_name("my_terms.py")
 
 @pytest.fixture(autouse=True)
 def free_names(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """What a test registers or imports as an extension is gone after it."""
+    """Names and modules of extensions last for one test."""
     monkeypatch.setattr(loading, "_loaded", {})
     monkeypatch.setattr(sys, "path", list(sys.path))
     discovery.discover()

@@ -65,7 +65,7 @@ def test_a_file_is_shown_with_what_is_measured_of_it(command: Command) -> None:
         "angular momentum: no",
     ):
         assert line in card
-    kernel = command("show", "kernel", "my kernel", "--extension", str(FILE)).stdout
+    kernel = command("show", "my_kernel", "--extension", str(FILE)).stdout
     assert "Wendland's, by another name" in kernel
 
 

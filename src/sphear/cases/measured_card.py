@@ -40,7 +40,7 @@ class MeasuredCard:
     dissipative: bool
 
     def as_dict(self) -> dict[str, Any]:
-        """What was measured, by name."""
+        """The measured numbers by name."""
         return {name: value for name, value in vars(self).items() if name != "card"}
 
     def text(self) -> str:

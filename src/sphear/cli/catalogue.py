@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -53,6 +54,25 @@ def kind_of(name: str) -> str:
     if plain not in KINDS:
         raise unknown("kind", name, KINDS)
     return plain
+
+
+def kind_and_name(words: list[str]) -> tuple[str, str]:
+    """The kind and the name that words say; the kind may be left out of a registered thing.
+
+    Raises:
+        SphearError: the first word is no kind and all together are no name, or a kind is alone.
+    """
+    try:
+        kind = kind_of(words[0])
+    except SphearError:
+        whole = " ".join(words)
+        for registered in ("viscosity", "kernels", "corrections", "preconditioners"):
+            with suppress(SphearError):
+                return registered, _registry(registered).name(whole)
+        raise
+    if len(words) == 1:
+        raise SphearError(f"show needs a name after {kind}, one of those that sphear list {kind} shows")
+    return kind, " ".join(words[1:])
 
 
 def entries(kind: str) -> list[dict[str, Any]]:
