@@ -11,6 +11,11 @@ Flows of the cases run from their start to their end:
 
     flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400).run()
 
+Terms, kernels and corrections of one's own have names too, once they are decorated:
+
+    @viscous_term("mine")
+    class Mine(LaplacianTerm): ...
+
 Names are imported when first used, so that importing the package costs nothing; type checkers see them all.
 """
 
@@ -30,6 +35,7 @@ if TYPE_CHECKING:
         Shape as Shape,
     )
     from sphear.cases.flow import FlowRun as FlowRun, flow as flow
+    from sphear.cases.measured_card import MeasuredCard as MeasuredCard, measured_card as measured_card
     from sphear.cases.patch_test import PatchTest as PatchTest
     from sphear.corrections import (
         CORRECTIONS as CORRECTIONS,
@@ -47,7 +53,17 @@ if TYPE_CHECKING:
         IdealGas as IdealGas,
         Linear as Linear,
     )
-    from sphear.errors import SphearError as SphearError, TooFewNeighboursError as TooFewNeighboursError
+    from sphear.errors import (
+        SphearError as SphearError,
+        SphearWarning as SphearWarning,
+        TooFewNeighboursError as TooFewNeighboursError,
+    )
+    from sphear.extensions.naming import (
+        correction as correction,
+        equation_of_state as equation_of_state,
+        kernel as kernel,
+        viscous_term as viscous_term,
+    )
     from sphear.kernels import (
         KERNELS as KERNELS,
         CubicSpline as CubicSpline,
@@ -108,12 +124,14 @@ _HOMES = {
     "sphear.boundaries.conditions": ("FreeSlip", "NoSlip", "Periodic"),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
     "sphear.cases.flow": ("FlowRun", "flow"),
+    "sphear.cases.measured_card": ("MeasuredCard", "measured_card"),
     "sphear.cases.patch_test": ("PatchTest",),
     "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
     "sphear.equations_of_state": (
         "EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear",
     ),
-    "sphear.errors": ("SphearError", "TooFewNeighboursError"),
+    "sphear.errors": ("SphearError", "SphearWarning", "TooFewNeighboursError"),
+    "sphear.extensions.naming": ("correction", "equation_of_state", "kernel", "viscous_term"),
     "sphear.kernels": (
         "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2",
         "WendlandC4", "WendlandC6",

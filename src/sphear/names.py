@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 from collections.abc import Iterable, Iterator
 from typing import Generic, TypeVar
 
@@ -39,10 +40,20 @@ def plain(name: object) -> str:
 
 
 class Registry(Generic[T]):
-    """Named things of one kind, found by name or alias whatever the case, with '-' and ' ' read as '_'."""
+    """Named things of one kind, found by name or alias whatever the case, with '-' and ' ' read as '_'.
+
+    One that is open also has the names of extensions: packages that declare some are imported when a name that is not
+    known is looked up, or when all names are gone through.
+
+    Attributes:
+        kind: of what has names.
+        published: the names that every process knows, those of the package itself; none where it is not open.
+    """
 
     def __init__(self, kind: str) -> None:
         self.kind = kind
+        self.published: frozenset[str] = frozenset()
+        self._open = False
         self._items: dict[str, T] = {}
         self._aliases: dict[str, str] = {}
         self._given: dict[str, tuple[str, ...]] = {}
@@ -51,15 +62,48 @@ class Registry(Generic[T]):
         """The kind and the names."""
         return f"<Registry of {self.kind}: {', '.join(self._items)}>"
 
+    def open(self) -> None:
+        """Let extensions add names from now on; those so far are the package's own."""
+        self.published = frozenset(self._items)
+        self._open = True
+
     def add(self, name: str, item: T, aliases: Iterable[str] = ()) -> None:
-        """Register an item; a name or alias taken twice is a programming error."""
+        """Register an item.
+
+        Raises:
+            SphearError: the name or an alias is taken, with what has it.
+        """
         aliases = tuple(aliases)
         for key in (name, *aliases):
-            if self._plain(key) in self._aliases:
-                raise KeyError(f"the {self.kind} name {key!r} is taken twice")
-            self._aliases[self._plain(key)] = name
+            if (holder := self.holder(key)) is not None:
+                raise SphearError(
+                    f"the {self.kind} name {quoted(key)} is taken by {self._whose(holder)}: choose another"
+                )
+        self._aliases |= {self._plain(key): name for key in (name, *aliases)}
         self._items[name] = item
         self._given[name] = aliases
+
+    def put(self, name: str, item: T) -> None:
+        """Register an item in place of what has its name, if anything has."""
+        if (holder := self.holder(name)) is not None:
+            self.remove(holder)
+        self.add(name, item)
+
+    def holder(self, name: str) -> str | None:
+        """The registered name that a name or an alias belongs to so far; None where it is free."""
+        return self._aliases.get(self._plain(name))
+
+    def held(self, name: str) -> T:
+        """The item of a registered name, no extension being looked for."""
+        return self._items[name]
+
+    def _whose(self, name: str) -> str:
+        """An item in the words of an error: its name, and where it comes from unless that is this package."""
+        item = self._items[name]
+        kind = item if inspect.isclass(item) else type(item)
+        if name in self.published or kind.__module__.startswith("sphear."):
+            return f"sphear's own {name}"
+        return f"{kind.__qualname__} of the module {kind.__module__}"
 
     def aliases(self, name: str) -> list[str]:
         """The other names of an item, as they were given."""
@@ -80,6 +124,8 @@ class Registry(Generic[T]):
         Raises:
             SphearError: there is none, with the nearest names.
         """
+        if self._plain(name) not in self._aliases:
+            self._discover()
         try:
             return self._aliases[self._plain(name)]
         except KeyError:
@@ -89,9 +135,23 @@ class Registry(Generic[T]):
         return self._items[self.name(name)]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._items)
+        self._discover()
+        return iter(tuple(self._items))
 
     def __len__(self) -> int:
+        self._discover()
         return len(self._items)
+
+    def __contains__(self, name: object) -> bool:
+        if name not in self._items:
+            self._discover()
+        return name in self._items
+
+    def _discover(self) -> None:
+        """Import what installed packages extend the registry with, the first time."""
+        if self._open:
+            from sphear.extensions.discovery import discover
+
+            discover()
 
     _plain = staticmethod(plain)

@@ -186,5 +186,7 @@ def test_the_card_of_a_users_term() -> None:
     class Plain(sphear.LaplacianTerm):
         """Without anything but itself."""
 
-    assert repr(Plain()).startswith("Plain()\n  formula          du/dt = not stated")
+    assert repr(Plain()).startswith(
+        "Plain()\n  in words         Without anything but itself\n  formula          not stated"
+    )
     assert repr(Mine()) == "Mine(factor=2.0)"

@@ -21,7 +21,7 @@ GENERAL = {
     "list kernels extra": "unexpected extra argument",
     "list --jsn": "no such option: --jsn",
     "show": "missing argument 'KIND'",
-    "show viscosity": "missing argument 'NAME'",
+    "show viscosity": "show needs a name after viscosity",
     "show colour red": "no kind named 'colour'",
     "show viscosity moris": "no viscosity named 'moris': did you mean morris",
     "show kernel cubik_spline": "no kernel named 'cubik_spline': did you mean cubic_spline",

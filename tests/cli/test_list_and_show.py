@@ -114,6 +114,17 @@ def test_a_name_may_be_written_in_words(words: list[str], sphear: Run) -> None:
     assert sphear("show", "kernel", *words, "--json").json()["name"] == "cubic_spline"
 
 
+@pytest.mark.parametrize(("words", "kind"), [(["VISC-03"], "viscosity"), (["Cubic", "Spline"], "kernels")])
+def test_the_kind_may_be_left_out(words: list[str], kind: str, sphear: Run) -> None:
+    assert sphear("show", *words, "--json").json()["kind"] == kind
+
+
+def test_a_kind_alone_is_refused(sphear: Run) -> None:
+    found = sphear("show", "kernel")
+    assert (found.status, found.out) == (2, "")
+    assert found.err == "sphear: show needs a name after kernels, one of those that sphear list kernels shows\n"
+
+
 @pytest.mark.parametrize("study", STUDIES)
 @pytest.mark.parametrize("separator", [" ", "/", None])
 def test_an_item_of_a_study_is_shown(study: str, separator: str | None, sphear: Run) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import typer
 
+from sphear.cli.extension import say_warnings
 from sphear.cli.listing import list_names
 from sphear.cli.notices import say_notices
 from sphear.cli.patch_test import patch_test
@@ -63,6 +64,7 @@ def run() -> int:
         EOFError: something ended too early.
     """
     say_notices(as_json="--json" in sys.argv)
+    say_warnings()
     try:
         status = app(standalone_mode=False, prog_name="sphear")
     except _UsageError as error:

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any
+from contextlib import suppress
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
+from sphear.cli.output import print_sentence, progress
+from sphear.errors import SphearError
 from sphear.names import plain, unknown
+from sphear.words import in_words
+
+if TYPE_CHECKING:
+    from sphear.viscosity.card import Card
 
 KINDS = ("kernels", "viscosity", "corrections", "preconditioners", "studies", "cases")
 _SINGULAR = {
@@ -46,6 +54,25 @@ def kind_of(name: str) -> str:
     if plain not in KINDS:
         raise unknown("kind", name, KINDS)
     return plain
+
+
+def kind_and_name(words: list[str]) -> tuple[str, str]:
+    """The kind and the name that words say; the kind may be left out of a registered thing.
+
+    Raises:
+        SphearError: the first word is no kind and all together are no name, or a kind is alone.
+    """
+    try:
+        kind = kind_of(words[0])
+    except SphearError:
+        whole = " ".join(words)
+        for registered in ("viscosity", "kernels", "corrections", "preconditioners"):
+            with suppress(SphearError):
+                return registered, _registry(registered).name(whole)
+        raise
+    if len(words) == 1:
+        raise SphearError(f"show needs a name after {kind}, one of those that sphear list {kind} shows")
+    return kind, " ".join(words[1:])
 
 
 def entries(kind: str) -> list[dict[str, Any]]:
@@ -93,7 +120,7 @@ def _first_line(item: Any) -> str:
     """
     kind = item if inspect.isclass(item) else type(item)
     module = inspect.getmodule(kind) if kind.__module__.startswith("sphear.") else None
-    text = (module.__doc__ if module else kind.__doc__) or item.formula
+    text = (module.__doc__ if module else in_words(kind)) or item.formula
     return str(text).strip().partition("\n")[0].rstrip(".")
 
 
@@ -105,15 +132,32 @@ def described(kind: str, name: str) -> dict[str, Any]:
     item = registry[name]
     facts = {"kind": kind, "name": registry.name(name), "aliases": registry.aliases(name)}
     if kind == "viscosity":
-        from sphear.viscosity.card import card
-
-        return facts | card(item, facts["name"]).as_dict()
+        return facts | viscous_card(facts["name"]).as_dict()
     facts |= {"summary": _first_line(item), "formula": item.formula}
     if kind != "preconditioners":
         facts["source"] = item.source
     if kind == "kernels":
         facts |= {"support": f"{item.support:g} h", "sigma": dict(zip(("1-D", "2-D", "3-D"), item.sigma, strict=True))}
     return facts
+
+
+@lru_cache
+def viscous_card(name: str) -> Card:
+    """The card of a term by its registered name; that of an extension is measured now, which takes some seconds."""
+    from sphear.viscosity import VISCOSITY
+    from sphear.viscosity.card import card
+
+    known = card(None, name)
+    if name in VISCOSITY.published:
+        return known
+    from sphear.cases.measured_card import measured_card
+
+    with progress(f"measuring {name}") as tell:
+        try:
+            return known.with_properties(measured_card(name, tell).as_dict())
+        except SphearError as error:
+            print_sentence(f"the viscosity {name} cannot be measured: {error}")
+            return known
 
 
 def _described_study(name: str) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import typer
 
 from sphear.cli.catalogue import KINDS, entries, kind_of
+from sphear.cli.extension import EXTENSIONS
 from sphear.cli.output import print_json, print_tables
 
 
@@ -12,6 +13,7 @@ def list_names(
     kind: str | None = typer.Argument(
         None, metavar="[kernels|viscosity|corrections|preconditioners|studies|cases]", help="Default: all."
     ),
+    extensions: list[str] = EXTENSIONS,
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of tables."),
 ) -> None:
     """List kernels, viscous terms, corrections, preconditioners, studies or cases."""

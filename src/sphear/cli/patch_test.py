@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from sphear.cli.extension import EXTENSIONS
 from sphear.cli.output import folder, print_files, print_json, print_tables, progress, write
 from sphear.errors import SphearError, quoted
 from sphear.versions import versions
@@ -36,6 +37,7 @@ def patch_test(
     precision: str = typer.Option("float64", help="float64 or float32."),
     threads: int | None = typer.Option(None, help="Default: all processors for many particles."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
+    extensions: list[str] = EXTENSIONS,
     out: str | None = typer.Option(None, metavar="DIR", help="Write figure, table and JSON to this folder."),
 ) -> None:
     """Measure errors and orders of viscous terms against the exact Laplacian of a field."""

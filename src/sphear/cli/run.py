@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from sphear.cli.extension import EXTENSIONS
 from sphear.cli.kept import compute, finish, kept_in
 from sphear.cli.output import folder, print_files, print_json, print_tables, print_text, write
 from sphear.cli.settings import changes
@@ -34,6 +35,7 @@ def run(
     preset: str | None = typer.Option(None, help="A paper's settings: basa2009 or zheng2018; options go before them."),
     force: bool = typer.Option(False, "--force", help="Take a time step beyond its limit all the same."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
+    extensions: list[str] = EXTENSIONS,
     out: str | None = typer.Option(None, metavar="DIR", help="Write figure, history, particles, JSON to this folder."),
     resume: bool = typer.Option(
         False, "--resume", help="Go on with the run in --out DIR: interrupted, or ended and now --until later."

@@ -7,25 +7,27 @@ from typing import Any
 
 import typer
 
-from sphear.cli.catalogue import described, kind_of
+from sphear.cli.catalogue import described, kind_and_name
+from sphear.cli.extension import EXTENSIONS
 from sphear.cli.output import print_json, print_text
 
 
 def show(
     kind: str = typer.Argument(
-        ..., metavar="KIND", help="kernels, viscosity, corrections, preconditioners, studies or cases."
+        ..., metavar="KIND", help="kernels, viscosity, corrections, preconditioners, studies or cases; may be left out."
     ),
-    name: list[str] = typer.Argument(..., metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
+    name: list[str] = typer.Argument((), metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
+    extensions: list[str] = EXTENSIONS,
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),
 ) -> None:
     """Show formula, source and measured properties of one thing, or the settings of a case and what they mean."""
-    facts = described(kind_of(kind), " ".join(name))
+    facts = described(*kind_and_name([kind, *name]))
     if as_json:
         print_json(facts)
     elif facts["kind"] == "viscosity":
-        from sphear.viscosity.card import card
+        from sphear.cli.catalogue import viscous_card
 
-        print_text(card(None, facts["name"]).text())
+        print_text(viscous_card(facts["name"]).text())
     elif facts["kind"] == "cases":
         from sphear.cli.explained import case_lines
 

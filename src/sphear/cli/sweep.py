@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from sphear.cli.extension import EXTENSIONS
 from sphear.cli.output import folder, print_files, print_json, print_sentence, print_tables, progress, write
 from sphear.cli.settings import changes, choices
 from sphear.errors import Interrupted, SphearError
@@ -28,6 +29,7 @@ def sweep(
     workers: int | None = typer.Option(None, help="Processes; 1 if not given."),
     scheduler: str | None = typer.Option(None, metavar="ADDRESS", help="Use the workers of this Dask scheduler."),
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of a table."),
+    extensions: list[str] = EXTENSIONS,
     out: str = typer.Option(..., metavar="DIR", help="Where the runs are stored, and the table and JSON written."),
 ) -> None:
     """Compute a flow with all combinations of settings; the same command again goes on where it was interrupted."""

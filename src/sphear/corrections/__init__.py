@@ -13,6 +13,7 @@ from sphear.names import Registry
 CORRECTIONS: Registry[Correction] = Registry("correction")
 for _correction in (NoCorrection(), Shepard(), BonetLok(), Renormalised()):
     CORRECTIONS.add(_correction.name, _correction, _correction.aliases)
+CORRECTIONS.open()
 
 # of values at points only, by name and alias
 VALUE_CORRECTIONS = {name: MovingLeastSquares() for name in (MovingLeastSquares.name, *MovingLeastSquares.aliases)}

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 
 from sphear.algebra import Matrix, Scalar, Vector, dot
 from sphear.engine.formula import Interaction
+from sphear.errors import SphearError
 from sphear.kernels import Kernel
 
 
@@ -17,11 +18,11 @@ class Correction:
     `prepared` is what `preparation` sums up for the particle; the corrected kernel W~ is evaluated from it.
     """
 
-    name: ClassVar[str]
+    name: ClassVar[str] = "unnamed"
     aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str]
-    source: ClassVar[str]
-    zeroth_order: ClassVar[bool]  # whether sums of derivatives of W~, the particle itself included, vanish
+    formula: ClassVar[str] = "not stated"
+    source: ClassVar[str] = "not stated"
+    zeroth_order: ClassVar[bool] = False  # whether sums of derivatives of W~, the particle itself included, vanish
 
     def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Interaction | None:
         """The interaction that sums up what the correction needs, for `hessian` too if asked for; None if nothing."""
@@ -40,8 +41,15 @@ class Correction:
         return None
 
     def hessian(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Matrix:
-        """The corrected second derivatives of W."""
-        raise NotImplementedError
+        """The corrected second derivatives of W, which few viscous terms need.
+
+        Raises:
+            SphearError: the correction has none.
+        """
+        raise SphearError(
+            f"the correction {type(self).__name__} has no method hessian, and this viscous term needs its second"
+            " derivatives"
+        )
 
     def radial(self, kernel: Kernel, prepared: Any, d: Vector, r2: Scalar) -> Scalar:
         """d . grad W~."""

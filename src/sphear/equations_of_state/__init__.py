@@ -11,5 +11,6 @@ from sphear.names import Registry
 EQUATIONS_OF_STATE: Registry[type[EquationOfState]] = Registry("equation of state")
 for _equation in (IdealGas, BatchelorTait, Linear):
     EQUATIONS_OF_STATE.add(_equation.name, _equation, _equation.aliases)
+EQUATIONS_OF_STATE.open()
 
 __all__ = ["EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear"]

@@ -16,10 +16,10 @@ class EquationOfState:
     Densities are in kg/m^3, pressures in Pa, energies in J/kg and speeds in m/s, or in any other consistent units.
     """
 
-    name: ClassVar[str]
+    name: ClassVar[str] = "unnamed"
     aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str]
-    source: ClassVar[str]
+    formula: ClassVar[str] = "not stated"
+    source: ClassVar[str] = "not stated"
     uses_energy: ClassVar[bool] = False  # else the pressure is a function of the density alone
 
     def pressure(self, density: Scalar, energy: Scalar = None) -> Scalar:

@@ -15,6 +15,7 @@ from sphear.names import Registry
 KERNELS: Registry[type[Kernel]] = Registry("kernel")
 for _kernel in (CubicSpline, QuarticSpline, QuinticSpline, WendlandC2, WendlandC4, WendlandC6, Gaussian):
     KERNELS.add(_kernel.name, _kernel, _kernel.aliases)
+KERNELS.open()
 
 __all__ = [
     "KERNELS",

@@ -23,10 +23,10 @@ class Kernel:
 
     h: float
 
-    name: ClassVar[str]
+    name: ClassVar[str] = "unnamed"
     aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str]
-    source: ClassVar[str]
+    formula: ClassVar[str] = "not stated"
+    source: ClassVar[str] = "not stated"
     support: ClassVar[float]  # in smoothing lengths
     sigma: ClassVar[tuple[float, float, float]]  # makes the integral one in 1, 2 and 3 dimensions
 

@@ -8,7 +8,7 @@ from typing import Any
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
 from sphear.engine.structure import parameters
-from sphear.equations_of_state import BatchelorTait, EquationOfState, IdealGas, Linear
+from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState, IdealGas, Linear
 from sphear.errors import SphearError
 from sphear.interactions import (
     Advection,
@@ -110,8 +110,9 @@ def _equation(settings: WeaklyCompressible, problem: Problem, sound_speed: float
         return settings.equation_of_state
     if settings.gas:
         return IdealGas()
-    equation = BatchelorTait if settings.equation_of_state == "batchelor_tait" else Linear
-    return equation(problem.density, sound_speed)
+    kind: Any = EQUATIONS_OF_STATE[settings.equation_of_state]
+    equation: EquationOfState = kind(problem.density, sound_speed)
+    return equation
 
 
 def _parts(

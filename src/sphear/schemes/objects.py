@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import is_dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, InstanceOf, PlainSerializer, PlainValidator, ValidationInfo
+from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer, PlainValidator, ValidationInfo
 
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.engine.structure import made_of
-from sphear.equations_of_state import Barotropic, IdealGas
+from sphear.equations_of_state import EQUATIONS_OF_STATE, Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.kernels import KERNELS, Kernel
 from sphear.names import Registry
@@ -77,8 +77,23 @@ def _equation(value: Any) -> Any:
     return "ideal_gas" if value == IdealGas() else value
 
 
+def _extension(name: str) -> str:
+    """The registered name of an equation that an extension has named, of the density alone.
+
+    Raises:
+        ValueError: there is none.
+    """
+    known = EQUATIONS_OF_STATE.name(name)
+    if known in EQUATIONS_OF_STATE.published or not issubclass(EQUATIONS_OF_STATE[known], Barotropic):
+        raise ValueError(f"flows take no equation of state named {name!r}")
+    return known
+
+
 EquationSetting = Annotated[
-    Literal["batchelor_tait", "linear", "ideal_gas"] | InstanceOf[Barotropic] | InstanceOf[IdealGas],
+    Literal["batchelor_tait", "linear", "ideal_gas"]
+    | InstanceOf[Barotropic]
+    | InstanceOf[IdealGas]
+    | Annotated[str, AfterValidator(_extension)],
     BeforeValidator(_equation),
     WRITTEN,
 ]

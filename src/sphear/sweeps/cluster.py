@@ -12,7 +12,9 @@ from importlib import import_module
 from typing import Any
 
 from sphear.errors import SphearError
+from sphear.extensions.loading import modules
 from sphear.sweeps.events import Event, Finished, Lost, Started, unexpected
+from sphear.sweeps.objects import packed
 from sphear.sweeps.plan import Run
 from sphear.sweeps.worker import call
 
@@ -54,6 +56,7 @@ def on_cluster(
         why = " ".join(str(error).split()) or f"nothing came within {CONNECT:g} s"
         raise SphearError(f"the scheduler {address} does not answer: {why}") from error
     waiting, running = list(reversed(runs)), dict[Any, Run]()
+    dumps = _dumps()
     alone = _Alone(address, say)
     try:
         while waiting or running:
@@ -61,7 +64,7 @@ def on_cluster(
             alone.look(threads)
             for _ in range(min(threads - len(running), len(waiting))):
                 run = waiting.pop()
-                running[client.submit(call, compute, run.case, run.sent, pure=False, retries=0)] = run
+                running[client.submit(call, compute, run.case, packed(run, dumps), pure=False, retries=0)] = run
                 yield Started(run)
             if not running:
                 time.sleep(LOOK if not threads else 0)
@@ -77,6 +80,15 @@ def on_cluster(
             client.cancel(list(running))
         client.close()
         log.setLevel(level)
+
+
+def _dumps() -> Callable[[Any], bytes]:
+    """Pickling that sends classes of extension files along whole, because workers may have no such file."""
+    cloudpickle = import_module("cloudpickle")
+    for module in modules():
+        cloudpickle.register_pickle_by_value(module)
+    dumps: Callable[[Any], bytes] = cloudpickle.dumps
+    return dumps
 
 
 class _Alone:

@@ -14,8 +14,9 @@ from threading import Event as Flag
 from threading import Thread
 
 from sphear.errors import SphearError
+from sphear.extensions.loading import loaded
 from sphear.sweeps.events import Event, Finished, Lost, Started, unexpected
-from sphear.sweeps.objects import check_sendable
+from sphear.sweeps.objects import check_sendable, packed
 from sphear.sweeps.plan import Run
 from sphear.sweeps.worker import call, prepare
 
@@ -110,7 +111,7 @@ class _Feeder(Thread):
     def _computed(self, run: Run) -> Event:
         assert self.executor is not None
         try:
-            future = self.executor.submit(call, self.compute, run.case, run.sent)
+            future = self.executor.submit(call, self.compute, run.case, packed(run))
             error = future.exception()
         except BrokenProcessPool as broken:
             error = broken
@@ -124,7 +125,8 @@ class _Feeder(Thread):
         """Start a worker, and know its process."""
         for attempt in range(1, ATTEMPTS + 1):
             self._close()
-            self.executor = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=prepare)
+            spawn = multiprocessing.get_context("spawn")
+            self.executor = ProcessPoolExecutor(1, spawn, initializer=prepare, initargs=(loaded(),))
             try:
                 number = self.executor.submit(os.getpid).result()
             except (BrokenProcessPool, OSError) as error:

@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import warnings
 from importlib import import_module
 from threading import Thread
 from typing import Any
@@ -16,11 +17,28 @@ COMPUTE = "sphear.sweeps.worker:compute"
 _THREADS = ("NUMBA_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-def prepare() -> None:
-    """Set up a worker process: one thread, deaf to Ctrl-C (its parent ends it), gone when its parent is."""
+def prepare(extensions: tuple[str, ...] = ()) -> None:
+    """Set up a worker process: one thread, deaf to Ctrl-C (its parent ends it), gone when its parent is.
+
+    Args:
+        extensions: that its parent has imported, and this process imports too.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     one_thread()
     Thread(target=_end_with_parent, daemon=True).start()
+    _extend(extensions)
+
+
+def _extend(extensions: tuple[str, ...]) -> None:
+    """Import extensions, and those that packages declare; the parent has said which of these fail."""
+    from sphear.errors import SphearWarning
+    from sphear.extensions.discovery import discover
+    from sphear.extensions.loading import load
+
+    load(extensions)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SphearWarning)
+        discover()
 
 
 def one_thread() -> None:
@@ -36,13 +54,13 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def call(path: str, case: str, settings: dict[str, Any]) -> dict[str, Any]:
+def call(path: str, case: str, payload: bytes) -> dict[str, Any]:
     """Call the function at an import path, `module:name`, with a case and its settings; the record it gives back."""
     one_thread()
     from sphear.sweeps.objects import received
 
     module, _, name = path.partition(":")
-    result: dict[str, Any] = getattr(import_module(module), name)(case, received(settings))
+    result: dict[str, Any] = getattr(import_module(module), name)(case, received(payload))
     return result
 
 

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from sphear.engine.structure import made_of
+from sphear.words import in_words
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from sphear.viscosity.base import ViscousTerm
+
+
+_UNSTATED = "not stated"
 
 
 @lru_cache
@@ -34,11 +40,13 @@ class Card:
     where_it_varies: str
     correction: str
     properties: dict[str, Any]
+    summary: str = ""
 
     def as_dict(self) -> dict[str, Any]:
         """The card's facts by name."""
         return {
             "setting": self.setting,
+            **({"summary": self.summary} if self.summary else {}),
             "formula": self.formula,
             "source": self.source,
             "acts_on": self.acts_on,
@@ -47,11 +55,16 @@ class Card:
             **self.properties,
         }
 
+    def with_properties(self, properties: Mapping[str, Any]) -> Card:
+        """The same card with what was measured, by name."""
+        return replace(self, properties=dict(properties))
+
     def text(self) -> str:
         """The card as lines of text."""
         lines = [
             self.setting,
-            f"  formula          du/dt = {self.formula}",
+            *([f"  in words         {self.summary}"] if self.summary else []),
+            f"  formula          {'' if self.formula == _UNSTATED else 'du/dt = '}{self.formula}",
             f"  source           {self.source}",
             f"  aliases          {', '.join(self.aliases) or 'none'}",
             f"  acts on          {self.acts_on}",
@@ -68,13 +81,15 @@ class Card:
         def held(name: str) -> str:
             return "yes" if facts[name] else "no"
 
-        return [
+        lines = [
             f"  order, lattice   {facts['order_lattice']:+.1f}   (of the L1 error in dx, h fixed in dx)",
             f"  order, jittered  {facts['order_jittered']:+.1f}   (jitter 0.3 dx)",
             f"  conserves        linear momentum: {held('linear_momentum')}, angular momentum:"
             f" {held('angular_momentum')}; only dissipates: {held('dissipative')}",
-            f"  cost per pair    {facts['cost']:.1f}   (morris = 1)",
         ]
+        if "cost" in facts:
+            lines.append(f"  cost per pair    {facts['cost']:.1f}   (morris = 1)")
+        return lines
 
 
 def _where_it_varies(term: ViscousTerm) -> str:
@@ -86,6 +101,11 @@ def _where_it_varies(term: ViscousTerm) -> str:
     if takes_mean(term):
         return f"{MeanViscosity.where_it_varies}, by (mu_i + mu_j) / 2 for mu_i"
     return "refused"
+
+
+def _own_words(kind: type) -> str:
+    """The first line of the docstring of a user's class; nothing for the package's own, whose formula says it."""
+    return "" if kind.__module__.startswith("sphear.") else in_words(kind)
 
 
 def card(term: ViscousTerm | None, name: str | None = None) -> Card:
@@ -109,4 +129,5 @@ def card(term: ViscousTerm | None, name: str | None = None) -> Card:
         where_it_varies=_where_it_varies(term),
         correction="its own; takes no other" if term.own_correction else "none, shepard, bonet_lok, renormalised",
         properties=measured().get(known, {}) if known else {},
+        summary=_own_words(type(term)),
     )

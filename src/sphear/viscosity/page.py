@@ -46,14 +46,15 @@ x = np.random.default_rng(0).random((400, 2))
 lap = sphear.laplacian(x, x[:, 0] ** 2, viscosity=Mine())
 rows = sphear.PatchTest(viscosity=(Mine(), "morris"), sizes=(20,)).rows()
 run = sphear.flow("taylor-green", viscosity=Mine(factor=2.1), resolution=20, until=0.01).run()
-sphear.VISCOSITY.add("mine", Mine())  # from now on "mine" is a name in this program
+sphear.viscous_term("mine")(Mine())  # from now on "mine" is a name, as by a decorator of the class
 ```
 
 Numbers that may change are fields of the dataclass. Results name a term by its class and numbers,
 `Mine(factor=2.1)`, and a saved run or a sweep goes on with a term that is equal in these: after a change of the formula
 take another folder. Worker processes of a sweep import the class, so it stands in a module or
 at the top of the script. A force along the line of centres, or one with a rule for a viscosity that varies, derives
-from `sphear.ViscousTerm` and gives `acceleration`, as `violeau` does.
+from `sphear.ViscousTerm` and gives `acceleration`, as `violeau` does. [extending.md](extending.md) has the decorator,
+names on the command line and in packages, and kernels and corrections.
 
 """
 
@@ -65,10 +66,11 @@ def page() -> str:
         "| term | order, lattice | order, jittered | linear momentum | angular momentum | only dissipates | cost |"
     ]
     table.append("|---|---|---|---|---|---|---|")
-    for name in VISCOSITY:
+    published = [name for name in VISCOSITY if name in VISCOSITY.published]
+    for name in published:
         one = facts[name]
         held = ["yes" if one[key] else "no" for key in ("linear_momentum", "angular_momentum", "dissipative")]
         orders = [f"{one[key]:+.1f}" for key in ("order_lattice", "order_jittered")]
         table.append(f"| `{name}` | {' | '.join((*orders, *held))} | {one['cost']:.1f} |")
-    cards = [f"## {name}\n\n```\n{card(None, name).text()}\n```\n" for name in VISCOSITY]
+    cards = [f"## {name}\n\n```\n{card(None, name).text()}\n```\n" for name in published]
     return "\n".join((_INTRODUCTION, *table, "", _OWN + cards[0], *cards[1:]))
