@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-import sphear.sweeps
+import sphear
 
 REYNOLDS = (10.0, 100.0, 1000.0)
 Array = np.ndarray[Any, Any]
@@ -31,10 +31,10 @@ def main(resolution: int = 48, folder: Path | None = None, workers: int = 2) -> 
     """
     sizes = [resolution // 2, resolution * 3 // 4, resolution]
     over = {"reynolds": REYNOLDS, "resolution": sizes}
-    runs = sphear.sweeps.plan("taylor-green", over, {"scheme": "incompressible", "until": 0.2})
+    runs = sphear.plan("taylor-green", over, {"scheme": "incompressible", "until": 0.2})
     with TemporaryDirectory() as forgotten:
-        store = sphear.sweeps.Store(forgotten if folder is None else folder / "sweep")
-        results = sphear.sweeps.run_sweep(runs, store, workers=workers)
+        store = sphear.Store(forgotten if folder is None else folder / "sweep")
+        results = sphear.run_sweep(runs, store, workers=workers)
     table = np.array([
         (result.settings["reynolds"], result.settings["resolution"], result.metrics["l2_error"])
         for result in results

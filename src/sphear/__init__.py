@@ -83,6 +83,7 @@ if TYPE_CHECKING:
         laplacian as laplacian,
         viscous_acceleration as viscous_acceleration,
     )
+    from sphear import algebra as algebra
     from sphear.schemes.base import FlowFailure as FlowFailure
     from sphear.schemes.incompressible.settings import Incompressible as Incompressible
     from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
@@ -98,6 +99,8 @@ if TYPE_CHECKING:
         StopWhen as StopWhen,
     )
     from sphear.simulation.simulation import Simulation as Simulation
+    from sphear.sweeps import Store as Store, run_sweep as run_sweep
+    from sphear.sweeps.plan import plan as plan
     from sphear.viscosity import (
         VISCOSITY as VISCOSITY,
         Cleary as Cleary,
@@ -146,6 +149,8 @@ _HOMES = {
         "Call", "History", "Observer", "Probe", "Profile", "Progress", "Snapshots", "StopWhen",
     ),
     "sphear.simulation.simulation": ("Simulation",),
+    "sphear.sweeps": ("Store", "run_sweep"),
+    "sphear.sweeps.plan": ("plan",),
     "sphear.viscosity": (
         "VISCOSITY", "Cleary", "EspanolRevenga", "FatehiManzari", "Gotoh", "LaplacianTerm", "LeastSquares",
         "Monaghan", "Morris", "Oger", "Schwaiger", "Takeda", "TwoPass", "ViscousTerm", "Violeau",
@@ -153,13 +158,17 @@ _HOMES = {
 }  # fmt: skip
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
-__all__ = ["__version__", *_HOME]
+_MODULES = ("algebra",)
+
+__all__ = ["__version__", *_HOME, *_MODULES]
 
 if not TYPE_CHECKING:  # to type checkers it would make anything out of every name
 
     def __getattr__(name: str) -> object:
         if name in _HOME:
             return getattr(import_module(_HOME[name]), name)
+        if name in _MODULES:
+            return import_module(f"sphear.{name}")
         raise AttributeError(f"module 'sphear' has no attribute {name!r}")
 
 

@@ -26,6 +26,8 @@ def described(simulation: Simulation) -> str:
     if problem.force is not None or any(problem.body_force):
         lines.append(("force", str(problem.body_force if problem.force is None else "of place and time")))
     lines += _boundaries(simulation)
+    if problem.free_surface:
+        lines.append(("filled", f"{simulation.filled}, with a surface of its own"))
     lines += [
         ("particles", f"{flow.count}, {problem.spacing:g} apart"),
         ("scheme", str(simulation.scheme)),

@@ -55,10 +55,11 @@ class Run:
         self.flow, self.watch, self.unit, self.time_name = flow, watch, unit, time_name
         self.unresolved = unresolved(flow.problem)
         self.observers = list(observers)
+        self._judge: Observer | None = None  # looks before the others
         self.end = ""
         self.seconds = 0.0
         self.saved: float | None = None
-        self._looked = [NEVER] * len(self.observers)
+        self._looked = [NEVER] * (len(self.observers) + 1)
         self._steps = math.inf  # to the planned end
         self._warned = False
 
@@ -123,15 +124,20 @@ class Run:
         if keep is not None:
             self._try_to_save(keep, safe, warn, always=True)
 
+    @property
+    def _watching(self) -> list[Observer]:
+        """The observers after the one that judges, if any does."""
+        return self.observers if self._judge is None else [self._judge, *self.observers]
+
     def _now(self) -> Kept:
         """The state, a copy, and how far the observers are."""
-        return self.flow.state(), [len(observer.rows) for observer in self.observers], list(self._looked)
+        return self.flow.state(), [len(observer.rows) for observer in self._watching], list(self._looked)
 
     def _go_back(self, kept: Kept) -> None:
         """Return to where the run stood."""
         state, rows, self._looked = kept
         self.flow.restore(state)
-        for observer, count in zip(self.observers, rows, strict=True):
+        for observer, count in zip(self._watching, rows, strict=True):
             del observer.rows[count:]
         self.end = ""
 
@@ -143,7 +149,7 @@ class Run:
     def _look(self, last: bool) -> bool:
         """Let all look for whom it is time, all that have not at the end; whether anyone did."""
         anyone = False
-        for number, observer in enumerate(self.observers):
+        for number, observer in enumerate(self._watching):
             if self._looked[number] != self.flow.steps and (last or observer.due(self)):
                 self._looked[number] = self.flow.steps
                 observer.watch(self)
@@ -154,7 +160,7 @@ class Run:
         """Make the steps of a slice, to the next look at most; a failure is the end."""
         # where a step ends at `until`, round-off must not ask for one more
         left = max(1.0, np.ceil((until - self.flow.time) / self.flow.time_step - 1e-6))
-        looks = (observer.until_next(self) for observer in self.observers)
+        looks = (observer.until_next(self) for observer in self._watching)
         wanted = int(min(left, max_steps - self.flow.steps, slices.steps, *looks))
         began = time.perf_counter()
         try:

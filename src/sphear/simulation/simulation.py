@@ -29,7 +29,7 @@ from sphear.simulation.saved import About, check, read, write
 Array = np.ndarray[Any, Any]
 
 PLENTY = 10**12  # steps
-LOOKS = 200  # at the energy budget, in a run
+LOOKS, SELDOM = 200, 1000  # at the energy budget, in a run, and steps between two of them at most
 
 
 class _Plausible(Observer):
@@ -104,7 +104,9 @@ class Simulation(Run):
         chosen = chosen_scheme(scheme)
         problem = problem_of(region, spacing, fluid, given, velocity, body_force, speed, length, filled)
         conditions = dict(given)
-        super().__init__(flow_in_time(problem, chosen), Watch(problem), (_Plausible(), *observers))
+        super().__init__(flow_in_time(problem, chosen), Watch(problem), observers)
+        self._judge = self._plausible = _Plausible(steps=1)
+        self.filled = filled
         self.region, self.fluid, self.boundaries, self.scheme = region, fluid, conditions, chosen
         self._started = False
 
@@ -190,7 +192,7 @@ class Simulation(Run):
         self.end = ""
         self._begin()
         planned = min((until - self.time) / self.flow.time_step, max_steps - self.steps)
-        self.observers[0].steps = max(1, min(round(planned / LOOKS), 1000))
+        self._plausible.steps = max(1, min(round(planned / LOOKS), SELDOM)) if math.isfinite(planned) else SELDOM
         self._to_end(until, max_steps, keep=keep)
         if self.failed:
             raise FlowFailure(self.end.removeprefix("failed: "))
@@ -232,8 +234,8 @@ class Simulation(Run):
             "boundaries": repr(self.boundaries),
             "scheme": str(self.scheme),
             "particles": self.flow.count,
-            "spacing": self.flow.problem.spacing,
-            "body_force": str(self.flow.problem.body_force),
+            **{key: str(getattr(self.flow.problem, key)) for key in ("spacing", "body_force", "speed", "length")},
+            "filled": repr(self.filled),
         }
 
     def __repr__(self) -> str:
