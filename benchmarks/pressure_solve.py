@@ -107,7 +107,7 @@ def of_flow(name: str, side: int, neumann: str) -> tuple[PressureSystem, Array]:
     """The system and the right-hand side of a cavity's next step."""
     case, taken = FLOWS[name], list[tuple[PressureSystem, Array]]()
     chosen = case.settings(
-        scheme="incompressible", reynolds=1000.0, resolution=side, threads=1, neumann=neumann, max_steps=STEPS
+        scheme="incompressible", reynolds=1000.0, resolution=side, threads=1, walls=neumann, max_steps=STEPS
     )
     flow = flow_in_time(case.problem(chosen), chosen)
     flow.advance(STEPS)

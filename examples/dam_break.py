@@ -41,7 +41,7 @@ def main(resolution: int = 20, folder: Path | None = None) -> dict[str, float]:
         spacing=spacing,
         fluid=sphear.Fluid(kinematic_viscosity=SPEED / 1000),
         body_force=(0, -1),
-        scheme=sphear.Incompressible(wall_velocity="linear"),
+        scheme=sphear.Incompressible(continuation="linear"),
         speed=2 * SPEED,
         length=1.0,
         observers=[front, pictures],

@@ -77,7 +77,8 @@ def in_space() -> list[dict[str, Any]]:
     """A row for each flow and term."""
     others: list[dict[str, Any]] = [
         {}, {"alpha": 0.0, "projection": "start"}, {"alpha": 0.0, "laplacian": TERM},
-        {"alpha": 0.0, "neumann": "adami"}, {"alpha": 0.0, "wall_velocity": "linear"}, {"alpha": 0.0, "slip": False},
+        {"alpha": 0.0, "walls": "adami"}, {"alpha": 0.0, "continuation": "linear"},
+        {"alpha": 0.0, "wall_divergence": "continued"},
     ]  # fmt: skip
     chosen: list[tuple[str, Callable[..., Errors], dict[str, Any]]] = [
         *(("manufactured", closed_vortex, {"viscosity": term, "alpha": 0.0}) for term in VISCOSITY),

@@ -29,7 +29,7 @@ def test_what_is_given_goes_before_a_preset_and_that_before_the_defaults_of_the_
     incompressible = sphear.flow(
         "cavity", preset="zheng2018", scheme="incompressible", resolution=12
     ).settings.model_dump()
-    assert incompressible["neumann"] == "sfdi"
+    assert incompressible["walls"] == "sfdi"
 
 
 WRONG: dict[str, tuple[str, dict[str, Any], str]] = {

@@ -79,14 +79,14 @@ def test_max_steps_ends_a_run() -> None:
 
 
 def test_as_dict_has_case_resolved_settings_metrics_and_performance() -> None:
-    done = run("poiseuille", viscosity="E", correction="uncorrected", wall_velocity="linear", until=0.1)
+    done = run("poiseuille", viscosity="E", correction="uncorrected", continuation="linear", until=0.1)
     result = done.as_dict()
     assert list(result) == ["case", "settings", "metrics", "warnings", "versions", "performance"]
     assert result["case"] == "poiseuille"
     settings = result["settings"]
     expected = {
         "viscosity": "morris", "correction": "none", "kernel": "cubic_spline", "equation_of_state": "batchelor_tait",
-        "pressure_reduction": "mean", "wall_velocity": "linear", "reynolds": 0.5, "resolution": 20, "until": 0.1,
+        "pressure_reduction": "mean", "continuation": "linear", "reynolds": 0.5, "resolution": 20, "until": 0.1,
         "max_steps": 500_000, "force": False, "kinematic_viscosity": 1.0,
         "h_over_dx": pytest.approx(1 / 0.637), "sound_speed": done.flow.resolved()["sound_speed"],
         "time_step": done.flow.time_step,

@@ -19,7 +19,7 @@ SMALL: dict[str, dict[str, Any]] = {
     "cavity-cylinder": {"resolution": 24, "diameter": 0.4, "max_steps": 8, "viscosity": "oger"},
     "taylor-green": {"resolution": 12, "until": 0.2, "projection": "intermediate", "shifting": "xu"},
     "poiseuille": {**preset_settings("zheng2018", "incompressible"), "resolution": 12, "max_steps": 8},
-    "couette": {"resolution": 12, "max_steps": 6, "viscous_step": "crank_nicolson", "neumann": "adami"},
+    "couette": {"resolution": 12, "max_steps": 6, "viscous_step": "crank_nicolson", "walls": "adami"},
     "dam-break": {"resolution": 6, "max_steps": 8},
 }
 
@@ -217,9 +217,9 @@ def test_a_mistake_is_refused_before_the_first_step(mistake: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["relaxed", "staggered"])
-@pytest.mark.parametrize("neumann", ["mirror_points", "sfdi"])
-def test_other_starts_in_a_box(name: str, neumann: str) -> None:
-    run = start("cavity", initial=name, neumann=neumann, max_steps=3, until=None).run()
+@pytest.mark.parametrize("wall_model", ["mirror_points", "sfdi"])
+def test_other_starts_in_a_box(name: str, wall_model: str) -> None:
+    run = start("cavity", initial=name, walls=wall_model, max_steps=3, until=None).run()
     assert (run.end, run.history[-1]["smallest_distance"] > 0.5) == ("steps", True)
 
 

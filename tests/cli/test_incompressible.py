@@ -119,7 +119,7 @@ WRONG: dict[str, tuple[tuple[str, ...], str]] = {
         ("cavity-cylinder", "--set", "gradient=symmetric"),
         "gradient=symmetric conserves momentum and gradient_correction=renormalised does not: take",
     ),
-    "wall": (("cavity-cylinder", "--set", "neumann=sdfi"), "the setting neumann should be"),
+    "wall": (("cavity-cylinder", "--set", "walls=sdfi"), "the setting wall_model should be"),
     "preconditioner": (("cavity-cylinder", "--set", "preconditioner=grd"), "no preconditioner named 'grd'"),
     "time step": (("cavity-cylinder", "--set", "time_step=1"), "the time step of 1 is beyond the cfl limit of"),
 }
@@ -136,7 +136,7 @@ def test_a_mistake_is_one_sentence(mistake: str, sphear: Run) -> None:
 
 def test_a_sweep_over_settings_of_the_scheme(sphear: Run) -> None:
     """On a process of its own; the cylinder's own settings are settings too."""
-    over = ("--over", "neumann=natural,mirror_points", "--set", "max_steps=2", "--set", "resolution=24")
+    over = ("--over", "walls=natural,mirror_points", "--set", "max_steps=2", "--set", "resolution=24")
     command = (
         "sweep",
         "cavity-cylinder",
@@ -150,7 +150,7 @@ def test_a_sweep_over_settings_of_the_scheme(sphear: Run) -> None:
         "--json",
     )
     found = sphear(*command).json()
-    assert [row["settings"]["neumann"] for row in found["runs"]] == ["natural", "mirror_points"]
+    assert [row["settings"]["walls"] for row in found["runs"]] == ["natural", "mirror_points"]
     assert {row["end"] for row in found["runs"]} == {"steps"}
     assert all(row["settings"]["threads"] == 1 and row["settings"]["diameter"] == 0.4 for row in found["runs"])
     assert len(list(Path("results/runs").iterdir())) == 2

@@ -128,7 +128,7 @@ def test_a_failure_is_reported_and_not_hidden(sphear: Run) -> None:
             ["poiseuille", "--preset", "basa2009", "--set", "diffusion_form=antuono"],
             "diffusion_form has no effect with density_diffusion=0",
         ),
-        (["couette", "--set", "walls=adami", "--set", "wall_velocity=linear"], "no effect with walls=adami"),
+        (["couette", "--set", "walls=adami", "--set", "continuation=linear"], "no effect with walls=adami"),
         (["poiseuille", "--set", "initial_pressure=5"], "no effect with equation_of_state=batchelor_tait"),
         (
             [
@@ -160,7 +160,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "no value": (["poiseuille", "--set", "kernel"], "--set takes KEY=VALUE"),
     "unknown term": (["poiseuille", "-v", "moris"], "no viscosity named 'moris': did you mean morris"),
     "unknown kernel": (["poiseuille", "--set", "kernel=cubix"], "no kernel named 'cubix'"),
-    "unknown wall": (["poiseuille", "--set", "wall_velocity=liner"], "no wall velocity named 'liner'"),
+    "unknown wall": (["poiseuille", "--set", "continuation=liner"], "no wall velocity named 'liner'"),
     "unknown state": (["poiseuille", "--set", "equation_of_state=tate"], "the setting equation_of_state should be"),
     "no number": (["poiseuille", "--set", "reynolds=some"], "the setting reynolds should be a valid number"),
     "Re is zero": (["poiseuille", "--reynolds", "0"], "the setting reynolds should be greater than 0, not 0"),
@@ -185,7 +185,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
         "transport=shifting moves particles without their energy, which equation_of_state=ideal_gas needs",
     ),
     "slip without mirrors": (
-        ["cavity", "--set", "walls=fixed", "--set", "slip=true"],
+        ["cavity", "--set", "walls=fixed", "--set", "wall_divergence=slipping"],
         "slip is about the continuity equation beside mirrors, and not for density=continuity with walls=fixed",
     ),
     "transport of a continuity": (

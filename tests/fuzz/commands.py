@@ -13,13 +13,15 @@ BOTH = ("poiseuille", "couette", "taylor-green", "cavity")  # schemes
 INCOMPRESSIBLE = ("cavity-cylinder", "dam-break")
 POSITIVE = ("reynolds", "until", "time_step", "h_over_dx", "shifting_strength")
 COUNTS = ("resolution", "max_steps", "threads")
-NAMES = ("kernel", "viscosity", "correction", "wall_velocity", "initial", "scheme")
+NAMES = ("kernel", "viscosity", "correction", "continuation", "initial", "scheme")
 EXPLICIT_ONLY = ("density=continuity", "walls=fixed", "sound_speed=10", "integrator=midpoint", "transport=none")
-INCOMPRESSIBLE_ONLY = ("alpha=0.1", "neumann=adami", "tolerance=1e-3", "solid=none", "viscous_step=explicit")
+INCOMPRESSIBLE_ONLY = ("alpha=0.1", "walls=adami", "tolerance=1e-3", "solid=none", "viscous_step=explicit")
 CONTRADICTIONS = (
     ("explicit", "density=summation", "momentum=products"), ("explicit", "density=continuity", "momentum=squares"),
-    ("explicit", "density=summation", "density_diffusion=0.1"), ("explicit", "density=summation", "slip=true"),
-    ("explicit", "density=continuity", "walls=fixed", "slip=true"), ("explicit", "walls=fixed", "wall_particles=true"),
+    ("explicit", "density=summation", "density_diffusion=0.1"),
+    ("explicit", "density=summation", "wall_divergence=slipping"),
+    ("explicit", "density=continuity", "walls=fixed", "wall_divergence=slipping"),
+    ("explicit", "walls=fixed", "wall_particles=true"),
     ("explicit", "density=continuity", "transport=transport_velocity"),
     ("explicit", "equation_of_state=ideal_gas", "transport=shifting", "walls=mirror"),
     ("explicit", "equation_of_state=ideal_gas", "sound_speed=3", "walls=mirror"),
@@ -101,7 +103,7 @@ def _no_choice(draw: Draw) -> list[str]:
 
 def _no_bool(draw: Draw) -> list[str]:
     case, scheme = _case(draw)
-    return _wrapped(draw, case, scheme, f"{draw.choice(('force', 'slip'))}={draw.choice(('2', 'maybe', '-1', 'ja'))}")
+    return _wrapped(draw, case, scheme, f"force={draw.choice(('2', 'maybe', '-1', 'ja'))}")
 
 
 def _unknown_setting(draw: Draw) -> list[str]:

@@ -155,7 +155,7 @@ class Plain:
         low, high, other = box.lower[axis], box.upper[axis], 1 - axis
         depth = at[:, axis] - high if side else low - at[:, axis]
         y = high - s.x[:, axis] if side else s.x[:, axis] - low
-        rule = self.settings.wall_velocity
+        rule = self.settings.continuation
         behind = 2 * wall - own
         if rule == "mirror":
             return behind
@@ -275,7 +275,7 @@ class Plain:
                 y = to @ walls.normal[k] - 0.5 * self.dx
                 weight = self.mass / s.rho[who] * self.w(np.sqrt((to**2).sum(axis=1)) / self.h)[0]
                 inside = weight > 0
-                degrees = [1] if self.settings.wall_velocity == "linear" else [1, 2]
+                degrees = [1] if self.settings.continuation == "linear" else [1, 2]
                 u = s.v[who, 1 - axis] - walls.v[k, 1 - axis]
                 found = _fitted(y[inside, None] ** degrees, u[inside], weight[inside])
                 velocity[k, 1 - axis] += sum(a * (-walls.depth[k]) ** (n + 1) for n, a in enumerate(found))

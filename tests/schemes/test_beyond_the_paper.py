@@ -50,11 +50,11 @@ def density_rates(**changes: Any) -> np.ndarray[Any, Any]:
 
 
 def test_a_stream_along_walls_has_no_divergence_where_its_images_slip() -> None:
-    np.testing.assert_allclose(density_rates(slip=True), 0.0, atol=1e-12)
+    np.testing.assert_allclose(density_rates(wall_divergence="slipping"), 0.0, atol=1e-12)
 
 
 def test_images_that_are_continued_behind_the_wall_show_a_divergence() -> None:
-    assert np.abs(density_rates(slip=False)).max() > 0.01
+    assert np.abs(density_rates(wall_divergence="continued")).max() > 0.01
 
 
 def diffusion(gradients: bool) -> np.ndarray[Any, Any]:
@@ -99,7 +99,7 @@ def test_cleary_with_the_strongest_coefficient_is_stable_at_its_own_time_step() 
 @pytest.mark.parametrize(
     ("changes", "named"),
     [
-        ({"slip": True, "density": "summation"}, ("slip", "density=summation")),
+        ({"wall_divergence": "slipping", "density": "summation"}, ("slip", "density=summation")),
         (
             {"density": "continuity", "density_diffusion": 0.1, "diffusion_form": "antuono", "walls": "adami"},
             ("diffusion_form=antuono", "walls=adami"),

@@ -60,7 +60,7 @@ def smooth(viscosity: float) -> Problem:
 
 def conserving(**changes: Any) -> FlowSettings:
     """Without pressure reduction; the rule for walls, which there are none of, is that of another test."""
-    usual = {**PRESETS["basa2009"], "pressure_reduction": "none", "wall_velocity": "mirror"}
+    usual = {**PRESETS["basa2009"], "pressure_reduction": "none", "continuation": "mirror"}
     return FlowSettings(**{**usual, **changes})
 
 
@@ -109,7 +109,7 @@ def test_a_time_step_beyond_its_limit_is_refused_unless_forced() -> None:
     assert Flow(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
 
 
-@pytest.mark.parametrize("walls", ["mirror", "fixed", "adami"])
+@pytest.mark.parametrize("wall_model", ["mirror", "fixed", "adami"])
 def test_a_resolution_too_coarse_for_the_walls_is_refused(walls: str) -> None:
     Flow(*channel(resolution=4, walls=walls))
     with pytest.raises(SphearError, match=rf"the resolution of 3 is too coarse for walls={walls}: .* 1\.04\d+ reach"):
@@ -147,7 +147,7 @@ def failure(flow: Flow, steps: int = 1) -> tuple[float, int, Array, str]:
     return float(time), int(particle), np.array(place, float), cause
 
 
-@pytest.mark.parametrize("walls", ["mirror", "fixed"])
+@pytest.mark.parametrize("wall_model", ["mirror", "fixed"])
 def test_a_particle_through_a_wall_is_the_one_reported(walls: str) -> None:
     """A spacing beyond a mirror, or half of one into fixed particles; not the fastest one, which stays inside."""
     problem, settings = channel(walls=walls, sound_speed=20.0, time_step=0.01, force=True)
@@ -166,7 +166,7 @@ def test_a_particle_through_a_wall_is_the_one_reported(walls: str) -> None:
 
 def test_a_particle_through_a_mirror_changes_places_with_its_image() -> None:
     """Its velocity through the wall is reflected, that along it goes on."""
-    problem, settings = channel(wall_velocity="mirror", sound_speed=10.0, time_step=1e-6)
+    problem, settings = channel(continuation="mirror", sound_speed=10.0, time_step=1e-6)
     one = int(np.argmax(problem.positions[:, 1]))
     problem.positions[one, 1] = 0.5 - 1e-9
     problem.velocities[one] = 0.1, 2.0
@@ -414,8 +414,8 @@ def test_wrong_settings_are_one_sentence_however_they_are_made(case: str | None)
 
 
 def test_fixed_walls_cannot_mirror_velocities() -> None:
-    with pytest.raises(SphearError, match=r"^walls=fixed .* wall_velocity=linear or quadratic, not mirror$"):
-        Flow(*channel(walls="fixed", wall_velocity="mirror"))
+    with pytest.raises(SphearError, match=r"^walls=fixed .* continuation=linear or quadratic, not mirror$"):
+        Flow(*channel(walls="fixed", continuation="mirror"))
 
 
 @pytest.mark.parametrize("density", ["summation", "continuity"])

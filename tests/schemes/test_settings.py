@@ -15,11 +15,11 @@ from sphear.schemes.settings import FlowSettings
 BEST: dict[str, Any] = {
     "viscosity": "fatehi_manzari", "correction": "bonet_lok", "kernel": "wendland_c2", "h_over_dx": None,
     "equation_of_state": "batchelor_tait", "density": "continuity", "momentum": None, "pressure_reduction": "none",
-    "density_diffusion": 0.1, "diffusion_form": "antuono", "walls": "mirror", "wall_velocity": "quadratic",
-    "slip": True, "wall_particles": False, "integrator": "midpoint", "transport": "shifting",
+    "density_diffusion": 0.1, "diffusion_form": "antuono", "walls": "mirror", "continuation": "quadratic",
+    "wall_divergence": "slipping", "wall_particles": False, "integrator": "midpoint", "transport": "shifting",
 }  # fmt: skip
 SUMMED: dict[str, Any] = {
-    "density": "summation", "density_diffusion": 0.0, "diffusion_form": "molteni", "slip": False,
+    "density": "summation", "density_diffusion": 0.0, "diffusion_form": "molteni", "wall_divergence": "continued",
 }  # fmt: skip
 
 # a setting that is named, its value, and what others become that nobody named
@@ -45,11 +45,11 @@ BESIDE: list[tuple[str, Any, dict[str, Any]]] = [
     ("diffusion_form", "antuono", {}),
     ("diffusion_form", "molteni", {}),
     ("walls", "mirror", {}),
-    ("walls", "fixed", {"slip": False}),
-    ("walls", "adami", {"slip": False, "diffusion_form": "molteni"}),
-    ("wall_velocity", "linear", {}),
-    ("slip", True, {}),
-    ("slip", False, {}),
+    ("walls", "fixed", {"wall_divergence": "continued"}),
+    ("walls", "adami", {"wall_divergence": "continued", "diffusion_form": "molteni"}),
+    ("continuation", "linear", {}),
+    ("wall_divergence", "slipping", {}),
+    ("wall_divergence", "continued", {}),
     ("wall_particles", True, {}),
     ("wall_particles", False, {}),
     ("integrator", "midpoint", {}),
@@ -109,8 +109,11 @@ def test_every_choice_is_tried_alone() -> None:
 @pytest.mark.parametrize(
     ("named", "sentence"),
     [
-        ({"density": "summation", "slip": True}, "slip is about the continuity equation beside mirrors"),
-        ({"walls": "fixed", "slip": True}, "and not for density=continuity with walls=fixed"),
+        (
+            {"density": "summation", "wall_divergence": "slipping"},
+            "wall_divergence=slipping is about the continuity",
+        ),
+        ({"walls": "fixed", "wall_divergence": "slipping"}, "and not for density=continuity with walls=fixed"),
         ({"walls": "adami", "diffusion_form": "antuono"}, "antuono needs density gradients in the walls"),
         ({"momentum": "squares", "density_diffusion": 0.1}, "density=summation has none"),
         ({"transport": "transport_velocity", "density": "continuity"}, "not for density=continuity"),
@@ -129,7 +132,7 @@ PAPERS: dict[str, tuple[str, dict[str, Any]]] = {
             "viscosity": "morris", "correction": "none", "kernel": "cubic_spline", "h_over_dx": None,
             "equation_of_state": "batchelor_tait", "density": "summation", "momentum": None,
             "pressure_reduction": "mean", "density_diffusion": 0.0, "diffusion_form": "molteni", "walls": "mirror",
-            "wall_velocity": "linear", "slip": False, "wall_particles": False, "integrator": "midpoint",
+            "continuation": "linear", "wall_divergence": "continued", "wall_particles": False, "integrator": "midpoint",
             "transport": "none",
         },
     ),
@@ -138,7 +141,7 @@ PAPERS: dict[str, tuple[str, dict[str, Any]]] = {
         {
             "viscosity": "oger", "kernel": "cubic_spline", "h_over_dx": 1.2, "gradient": "symmetric",
             "gradient_correction": "none", "laplacian": "morris", "alpha": 0.01, "projection": "intermediate",
-            "neumann": "sfdi", "wall_velocity": "mirror", "slip": False, "shifting": "none",
+            "walls": "sfdi", "continuation": "mirror", "wall_divergence": "continued", "shifting": "none",
         },
     ),
 }  # fmt: skip
@@ -155,7 +158,7 @@ def test_a_preset_has_the_settings_of_its_paper(preset: str) -> None:
 def test_the_papers_cavity_has_its_own_walls() -> None:
     """Section 6.2: fixed particles, and results with level 0."""
     found = sphear.flow("cavity", preset="basa2009", resolution=12).settings.model_dump()
-    walls = {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}
+    walls = {"walls": "fixed", "continuation": "quadratic", "correction": "shepard"}
     assert {name: found[name] for name in BEST} == {**PAPERS["basa2009"][1], **walls}
 
 
@@ -176,3 +179,16 @@ def test_nobody_is_told_that_a_part_of_a_preset_has_no_effect(case: str) -> None
 def test_a_preset_that_a_scheme_has_not_is_refused_with_those_it_has(preset: str, scheme: str, allowed: str) -> None:
     with pytest.raises(SphearError, match=rf"^there is no preset named '{preset}': .*preset is one of {allowed}$"):
         sphear.flow("cavity", scheme=scheme, preset=preset)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("slip", "wall_divergence, slipping for true"),
+        ("neumann", "called walls"),
+        ("wall_velocity", "called continuation"),
+    ],
+)
+def test_settings_of_before_are_told_by_their_names_of_now(name: str, said: str) -> None:
+    with pytest.raises(SphearError, match=f"the setting {name} of 0.1 is .*{said}"):
+        FlowSettings(**{name: True})

@@ -108,7 +108,7 @@ def test_fluid_that_fills_a_part_has_a_surface() -> None:
         fluid=sphear.Fluid(kinematic_viscosity=0.01),
         body_force=(0.0, -1.0),
         filled=sphear.Rectangle((0, 0), (1, 1)),
-        scheme=sphear.Incompressible(wall_velocity="linear"),
+        scheme=sphear.Incompressible(continuation="linear"),
         speed=2.0,
     )
     assert len(flow.positions) == 64

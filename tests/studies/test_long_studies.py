@@ -94,7 +94,7 @@ def test_the_best_channels_reach_the_steady_state_at_every_reynolds_number() -> 
     assert {row["reynolds"]: row["end"] for row in data["best"]} == dict.fromkeys(BEST_REYNOLDS, "steady")
     assert max(BEST_REYNOLDS) == 1000
     assert max(row["rms_error"] for row in data["best"]) < 2e-4
-    assert (data["best_settings"]["resolution"], data["best_settings"]["slip"]) == (20, False)
+    assert (data["best_settings"]["resolution"], data["best_settings"]["wall_divergence"]) == (20, "continued")
 
 
 def test_no_best_channel_that_reached_the_steady_state_is_said() -> None:

@@ -243,7 +243,7 @@ def test_runs_are_chosen_by_size_and_term() -> None:
 def test_the_papers_own_settings_are_the_preset_with_its_time_step() -> None:
     settings = Wanted("cavity", "gotoh", 40, preset="zheng2018").run().given
     assert (settings["time_step"], settings["alpha"], settings["shifting"]) == (0.001, 0.01, "none")
-    assert (settings["viscosity"], settings["neumann"], settings["gradient"]) == ("gotoh", "sfdi", "symmetric")
+    assert (settings["viscosity"], settings["walls"], settings["gradient"]) == ("gotoh", "sfdi", "symmetric")
     shifted = Wanted("cavity", "gotoh", 40, preset=cavities.SHIFTED).run().given
     assert {name for name in settings if settings[name] != shifted[name]} == {"shifting", "shifting_strength"}
     assert shifted["shifting_strength"] == 1.0  # as its source has it

@@ -45,7 +45,7 @@ def run(**settings: Any) -> Run:
 def test_the_key_is_readable_and_changes_with_every_setting_that_matters() -> None:
     assert run().key.startswith("poiseuille-morris-none-re0.5-n20-")
     changed: list[dict[str, Any]] = [
-        {}, {"until": 1}, {"kernel": "wendland_c2"}, {"h_over_dx": 1.2}, {"max_steps": 3}, {"wall_velocity": "mirror"},
+        {}, {"until": 1}, {"kernel": "wendland_c2"}, {"h_over_dx": 1.2}, {"max_steps": 3}, {"continuation": "mirror"},
         {"sound_speed": 50}, {"time_step": 1e-5},
     ]  # fmt: skip
     assert len({run(**settings).key for settings in changed}) == len(changed)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from sphear.boundaries.box import ON_WALL
-from sphear.boundaries.wall_velocity import node_along
+from sphear.boundaries.continuation import node_along
 from sphear.engine.cache import compiled
 
 NODE_SPACING = 4.0  # of the nodes along a wall, in particle spacings

@@ -15,6 +15,11 @@ from sphear.schemes.objects import text
 
 LEAST_REYNOLDS, LARGEST_REYNOLDS = 1e-100, 1e100  # beyond, squares vanish or overflow
 OPEN = "no walls"
+RENAMED = {  # since 0.1
+    "neumann": "called walls",
+    "wall_velocity": "called continuation",
+    "slip": "called wall_divergence, slipping for true and continued for false",
+}
 
 
 class Choices(BaseModel):
@@ -29,6 +34,8 @@ class Choices(BaseModel):
     def __init__(self, **choices: Any) -> None:
         known = type(self).model_fields
         for key in choices:
+            if key in RENAMED and key not in known:
+                raise SphearError(f"the setting {key} of 0.1 is {RENAMED[key]}")
             if key not in known:
                 raise unknown("setting", key, known)
         with checked("the setting "):

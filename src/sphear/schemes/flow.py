@@ -10,7 +10,7 @@ from typing import Any
 import numba
 import numpy as np
 
-from sphear.boundaries import WALL_VELOCITIES
+from sphear.boundaries import CONTINUATIONS
 from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.threads import loop_threads, thread_count
 from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
@@ -84,7 +84,7 @@ class Flow:
             integrator=settings.integrator,
             walls=bool(problem.box.wall_axes),
             mirrored=settings.walls == "mirror",
-            wall_velocity=WALL_VELOCITIES.name(settings.wall_velocity),
+            continuation=CONTINUATIONS.name(settings.continuation),
             wall_particles=settings.wall_particles,
         )
         self._loop = self._loop_of(parallel=self.threads > 1)
@@ -187,7 +187,7 @@ class Flow:
             "viscosity": text(settings.viscosity),
             "correction": text(settings.correction),
             "kernel": text(settings.kernel),
-            "wall_velocity": WALL_VELOCITIES.name(settings.wall_velocity),
+            "continuation": CONTINUATIONS.name(settings.continuation),
             "momentum": settings.form,
             "h_over_dx": self.kernel.h / self.problem.spacing,
             "sound_speed": self.sound_speed,

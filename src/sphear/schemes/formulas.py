@@ -139,7 +139,8 @@ def _parts(
         )
     ]
     if continuity:
-        parts.append(Continuity(kernel, correction, prepared, "slip_velocity" if settings.slip else "velocity"))
+        seen = "slip_velocity" if settings.wall_divergence == "slipping" else "velocity"
+        parts.append(Continuity(kernel, correction, prepared, seen))
     if settings.density_diffusion > 0:
         gradients = settings.diffusion_form == "antuono"
         parts.append(DensityDiffusion(kernel, settings.density_diffusion, sound_speed, gradients))
@@ -167,19 +168,19 @@ def _wall(
         return None
     if settings.walls == "adami":
         return FluidBeforeWall(kernel)
-    if settings.wall_velocity not in FIT_DEGREES:
+    if settings.continuation not in FIT_DEGREES:
         raise SphearError(
-            f"walls=fixed continue the fluid's velocity by wall_velocity=linear or quadratic, not"
-            f" {settings.wall_velocity}"
+            f"walls=fixed continue the fluid's velocity by continuation=linear or quadratic, not"
+            f" {settings.continuation}"
         )
-    return VelocityBeforeWall(kernel, FIT_DEGREES[settings.wall_velocity])
+    return VelocityBeforeWall(kernel, FIT_DEGREES[settings.continuation])
 
 
 def _check_free_slip(settings: WeaklyCompressible) -> None:
     """Refuse wall models that cannot let fluid slip."""
     for name, other, instead in (
         ("walls", settings.walls != "mirror", "mirror"),
-        ("wall_velocity", settings.wall_velocity in ("global_quadratic", "global"), "quadratic"),
+        ("continuation", settings.continuation in ("global_quadratic", "global"), "quadratic"),
         ("wall_particles", settings.wall_particles, False),
     ):
         if other:

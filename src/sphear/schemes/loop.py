@@ -26,7 +26,7 @@ from {list_module} import build
 {imports}
 from sphear.boundaries.box import with_images
 from sphear.boundaries.mirror import mirror_velocities, wall_nodes
-from sphear.boundaries.wall_velocity import {wall_velocity} as fit
+from sphear.boundaries.continuation import {continuation} as fit
 from sphear.engine.cache import njit
 from sphear.engine.dense import solve_normal_equations
 from sphear.neighbours.cells import sorted_cells
@@ -119,7 +119,7 @@ def loop_module(
     integrator: str,
     walls: bool,
     mirrored: bool,
-    wall_velocity: str,
+    continuation: str,
     wall_particles: bool,
     parallel: bool,
 ) -> ModuleType:
@@ -131,7 +131,7 @@ def loop_module(
         integrator: a name of `integrators`.
         walls: whether the box has any.
         mirrored: whether they are mirrors; else there are fixed particles behind them.
-        wall_velocity: a name of `WALL_VELOCITIES`.
+        continuation: a name of `CONTINUATIONS`.
         wall_particles: whether particles stand on mirroring walls.
         parallel: whether loops over particles are shared out to threads.
     """
@@ -171,14 +171,14 @@ def loop_module(
         list_module=list_module(dimension).__name__,
         imports="\n".join(sweeps.imports),
         functions="".join(sweeps.functions),
-        wall_velocity=wall_velocity,
+        continuation=continuation,
         options=options,
         parallel=sweeps.parallel,
         layers=layers,
         on_wall="spacing" if wall_particles else "0.0",
         rows="total" if layers == 1 else "entries",
         axes=", ".join(f"coordinates[{axis}]" for axis in range(dimension)),
-        velocities=block(mirror_text(wall_velocity) if walls and mirrored else [], 4),
+        velocities=block(mirror_text(continuation) if walls and mirrored else [], 4),
         density=block(density, 4),
         of_equation="count" if isinstance(formulas.wall, FluidBeforeWall) else "total",
         equation_of_state=block(pressure_text(formulas.equation_of_state), 8),

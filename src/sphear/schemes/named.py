@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from sphear.boundaries import WALL_VELOCITIES
+from sphear.boundaries import CONTINUATIONS
 from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.names import Registry
@@ -23,7 +23,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "gradient_correction": CORRECTIONS,
     "kernel": KERNELS,
     "laplacian": VISCOSITY,
-    "wall_velocity": WALL_VELOCITIES,
+    "continuation": CONTINUATIONS,
     "preconditioner": PRECONDITIONERS,
 }
 
@@ -36,7 +36,7 @@ def named(settings: Chosen) -> Chosen:
     """
     given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
     if getattr(settings, "name", None) == "incompressible":  # which has its own, without aliases
-        given.pop("wall_velocity")
+        given.pop("continuation")
     names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
     changed = {key: name for key, name in names.items() if name != given[key]}  # others stay as nobody named them
     return settings.model_copy(update=changed)

@@ -13,8 +13,8 @@ from sphear.schemes.formulas import Formulas
 from sphear.schemes.sweeps import Sweeps
 
 
-def mirror_text(wall_velocity: str) -> list[str]:
-    """Velocities of all entries, those of images as `wall_velocity` continues them."""
+def mirror_text(continuation: str) -> list[str]:
+    """Velocities of all entries, those of images as `continuation` continues them."""
     return [
         "velocity = np.empty((entries, dimension))",
         "for e in range(entries):",
@@ -26,7 +26,7 @@ def mirror_text(wall_velocity: str) -> list[str]:
         "        a, b = np.zeros((nodes, 2, dimension)), np.zeros((nodes, 2, dimension))",
         "        fit(x[:count], v, lower, upper, axis, along, velocities[axis], spacing, a, b)",
         "        mirror_velocities(v, positions, source, wall, lower, upper, kinds, axis, velocities[axis], spacing,",
-        f"                          a, b, {wall_velocity == 'mirror'}, velocity)",
+        f"                          a, b, {continuation == 'mirror'}, velocity)",
     ]
 
 

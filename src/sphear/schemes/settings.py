@@ -42,9 +42,9 @@ class WeaklyCompressible(Scheme):
         diffusion_form: "molteni", that beside walls=adami and without diffusion, or "antuono" (2010), which takes out
             what the density's gradient explains.
         walls: "mirror" particles, "fixed" ones with the fluid's velocity continued into them (section 6.2), or "adami".
-        wall_velocity: how the velocity is continued into mirror or fixed particles.
-        slip: mirror particles have the fluid's own velocity along the wall in the continuity equation, instead of the
-            one that is continued for the viscous term; so they do if nothing is said, where there are both.
+        continuation: how the velocity is continued into mirror or fixed particles.
+        wall_divergence: velocity of mirror particles along the wall in the continuity equation: the fluid's own,
+            "slipping", also if nothing is said where there are both; or the one "continued" for the viscous term.
         wall_particles: particles with the wall's velocity on mirroring walls, one for each particle within a spacing.
         integrator: "midpoint", second-order Runge-Kutta, or "kick_drift_kick", with one evaluation a step.
         transport: "none", that of an ideal gas, "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al.
@@ -72,8 +72,8 @@ class WeaklyCompressible(Scheme):
     density_diffusion: float = Field(default=DIFFUSION, ge=0, allow_inf_nan=False)
     diffusion_form: Literal["molteni", "antuono"] = "antuono"
     walls: Literal["mirror", "fixed", "adami"] = "mirror"
-    wall_velocity: str = "quadratic"
-    slip: bool = True
+    continuation: str = "quadratic"
+    wall_divergence: Literal["slipping", "continued"] = "slipping"
     wall_particles: bool = False
     integrator: Literal["midpoint", "kick_drift_kick"] = "midpoint"
     transport: Literal["none", "shifting", "transport_velocity"] = "shifting"
@@ -105,8 +105,10 @@ class WeaklyCompressible(Scheme):
             " walls=mirror or diffusion_form=molteni": (
                 self.diffusion_form == "antuono" and self.walls == "adami" and self.density_diffusion > 0
             ),
-            f"slip is about the continuity equation beside mirrors, and not for density={self.density} with"
-            f" walls={self.walls}": self.slip and (self.density == "summation" or self.walls != "mirror"),
+            f"wall_divergence=slipping is about the continuity equation beside mirrors, and not for"
+            f" density={self.density} with walls={self.walls}": (
+                self.wall_divergence == "slipping" and (self.density == "summation" or self.walls != "mirror")
+            ),
             "transport=transport_velocity is made for density=summation, not for density=continuity": (
                 self.transport == "transport_velocity" and self.density == "continuity"
             ),
@@ -132,7 +134,7 @@ class WeaklyCompressible(Scheme):
             "density": "summation" if summed else "continuity",
             "density_diffusion": DIFFUSION if self.density == "continuity" else 0.0,
             "diffusion_form": "antuono" if self.density_diffusion > 0 and self.walls != "adami" else "molteni",
-            "slip": self.density == "continuity" and self.walls == "mirror",
+            "wall_divergence": ("slipping" if self.density == "continuity" and self.walls == "mirror" else "continued"),
             "transport": "none" if self.gas else "shifting",
         }
 
@@ -141,8 +143,8 @@ class WeaklyCompressible(Scheme):
             "diffusion_form": ("density_diffusion=0", self.density_diffusion == 0),
             "shifting_strength": (f"transport={self.transport}", self.transport != "shifting"),
             "background_pressure": (f"transport={self.transport}", self.transport != "transport_velocity"),
-            "wall_velocity": (f"walls={self.walls}", self.walls == "adami") if walled else (OPEN, True),
-            "slip": (OPEN, not walled),
+            "continuation": (f"walls={self.walls}", self.walls == "adami") if walled else (OPEN, True),
+            "wall_divergence": (OPEN, not walled),
             "initial_pressure": (
                 f"equation_of_state={text(self.equation_of_state)}",
                 not self.gas,

@@ -62,7 +62,7 @@ class Plain:
         self.volume = self.dx**2
         nothing = np.zeros((0, 2))
         self.wall = Dummies(nothing, np.zeros(0), nothing, nothing) if wall is None else wall
-        self.on = int((self.wall.depths == 0).sum()) if settings.neumann == "sfdi" else 0
+        self.on = int((self.wall.depths == 0).sum()) if settings.walls == "sfdi" else 0
         self.feet = self.wall.positions + self.wall.depths[:, None] * self.wall.normals
         self.x, self.u = problem.positions, problem.velocities
         self.p = np.zeros(len(self.x))
@@ -129,7 +129,7 @@ class Plain:
 
     def mirrored(self, x: Array) -> Array:
         """What the fluid says of each wall particle, (W, N)."""
-        if self.settings.neumann == "adami":
+        if self.settings.walls == "adami":
             pairs = self.pairs(self.wall.positions, x, self.radius)
             weights = self.gathered(pairs.w, pairs, len(x))
             total = weights.sum(axis=1, keepdims=True)
@@ -144,7 +144,7 @@ class Plain:
     def continued(self, x: Array, u: Array) -> Array:
         """Velocities as the viscous term sees them."""
         wall = self.wall
-        if self.settings.wall_velocity == "mirror":
+        if self.settings.continuation == "mirror":
             behind = 2.0 * wall.velocities - self.mirrored(x) @ u
             behind[: self.on] = wall.velocities[: self.on]
             return np.concatenate((u, behind))
@@ -154,7 +154,7 @@ class Plain:
         basis = np.stack((distance, distance**2, distance * along), axis=2)
         depth = -wall.depths / self.dx
         at = np.stack((depth, depth**2, 0.0 * depth), axis=1)
-        if self.settings.wall_velocity == "linear":
+        if self.settings.continuation == "linear":
             basis, at = basis[..., :1], at[:, :1]
         normal = np.einsum("ie,iea,ieb->iab", pairs.w, basis, basis)
         solved = np.linalg.solve(normal, at[..., None])[..., 0]
@@ -199,7 +199,7 @@ class Plain:
 
     def pressure(self, x: Array, pairs: Pairs, source: Array, accelerations: Array) -> Array:
         """Of the fluid and the walls."""
-        count, density, neumann = len(x), self.problem.density, self.settings.neumann
+        count, density, wall_model = len(x), self.problem.density, self.settings.walls
         walls, on = self.wall, self.on
         weights = self.gathered(
             self.laplacian(str(self.settings.laplacian), pairs), pairs, count + len(walls.positions)
@@ -215,14 +215,14 @@ class Plain:
         else:
             behind = self.mirrored(x)
             jump = -2.0 * walls.depths * slope
-            if neumann == "adami":  # from the middle of the fluid that the value is of
+            if wall_model == "adami":  # from the middle of the fluid that the value is of
                 way = x[None] - walls.positions[:, None]
                 for axis, side in enumerate(self.problem.box.sides):
                     if side == "periodic":
                         period = self.problem.box.upper[axis] - self.problem.box.lower[axis]
                         way[..., axis] -= period * np.rint(way[..., axis] / period)
                 jump = -density * np.einsum("we,wea,wa->w", behind, way, accelerations)
-        if neumann == "natural":
+        if wall_model == "natural":
             weights[:, count:], jump = 0.0, np.zeros(len(slope))
         weights[:, count:][:, ~behind.any(axis=1)] = 0.0
         np.fill_diagonal(weights, 0.0)
@@ -289,7 +289,7 @@ class Plain:
         self.projected_at = x
         pairs = self.around(x)
         even = np.concatenate((acceleration, self.mirrored(x) @ acceleration)) if walled else acceleration
-        seen = self.slipping if self.settings.slip else self.continued  # by the divergence
+        seen = self.slipping if self.settings.wall_divergence == "slipping" else self.continued  # by the divergence
         around = (seen(x, u) if walled else u) + dt * even
         slopes = self.differences(pairs, around)
         divergence = np.einsum("ikk->i", slopes)

@@ -38,11 +38,11 @@ def depth(flow: IncompressibleFlow) -> Array:
     return np.asarray(1.0 - flow.positions[:, 1])
 
 
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami"])
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami"])
 @pytest.mark.parametrize("gradient", ["differences", "symmetric"])
-def test_a_lattice_rests_with_the_pressure_of_its_depth(neumann: str, gradient: str) -> None:
+def test_a_lattice_rests_with_the_pressure_of_its_depth(wall_model: str, gradient: str) -> None:
     correction = "renormalised" if gradient == "differences" else "none"
-    flow = block((0.0, 0.0), neumann=neumann, gradient=gradient, gradient_correction=correction, alpha=0.0)
+    flow = block((0.0, 0.0), walls=wall_model, gradient=gradient, gradient_correction=correction, alpha=0.0)
     flow.advance(1)
     np.testing.assert_allclose(flow.pressure, depth(flow), atol=0.1)
     assert np.polyfit(depth(flow), flow.pressure, 1)[0] == pytest.approx(GRAVITY, abs=0.05)
@@ -94,8 +94,8 @@ def test_a_particle_that_is_alone_falls_to_the_floor_and_stays_there() -> None:
 @pytest.mark.parametrize(
     ("changes", "why"),
     [
-        ({"neumann": "sfdi"}, "needs fluid before every wall"),
-        ({"neumann": "natural"}, "carries no weight on walls"),
+        ({"walls": "sfdi"}, "needs fluid before every wall"),
+        ({"walls": "natural"}, "carries no weight on walls"),
         ({"laplacian": "oger"}, "needs neighbours on all sides"),
     ],
 )

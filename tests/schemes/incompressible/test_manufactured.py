@@ -45,9 +45,9 @@ def test_order_in_the_spacing(term: str) -> None:
     assert fine[1] < 0.012
 
 
-@pytest.mark.parametrize("neumann", ["adami", "sfdi"])
-def test_order_with_other_walls(neumann: str) -> None:
-    coarse, fine = errors(32, neumann=neumann), errors(64, neumann=neumann)
+@pytest.mark.parametrize("wall_model", ["adami", "sfdi"])
+def test_order_with_other_walls(wall_model: str) -> None:
+    coarse, fine = errors(32, walls=wall_model), errors(64, walls=wall_model)
     assert np.log2(coarse[0] / fine[0]) > 1.5
     assert fine[0] < 0.004
 

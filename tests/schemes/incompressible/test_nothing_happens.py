@@ -27,9 +27,9 @@ def flow(
 
 
 @pytest.mark.parametrize("period", [1.0, 1.03, 1.05, 1.21, 1.3])
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
-def test_a_channel_of_any_period(period: float, neumann: str) -> None:
-    run = flow(period, True, (1.0, 0.0), (0.0, 0.0), neumann=neumann)
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi", "natural"])
+def test_a_channel_of_any_period(period: float, wall_model: str) -> None:
+    run = flow(period, True, (1.0, 0.0), (0.0, 0.0), walls=wall_model)
     run.advance(1)
     assert np.abs(run.velocities[:, 1]).max() < 1e-9
     run.advance(3)
@@ -38,9 +38,9 @@ def test_a_channel_of_any_period(period: float, neumann: str) -> None:
 
 
 @pytest.mark.parametrize("period", [1.03, 1.3])
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi"])
-def test_nothing_moves_at_rest(period: float, neumann: str) -> None:
-    run = flow(period, True, (0.0, -1.0), (0.0, 0.0), neumann=neumann)
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi"])
+def test_nothing_moves_at_rest(period: float, wall_model: str) -> None:
+    run = flow(period, True, (0.0, -1.0), (0.0, 0.0), walls=wall_model)
     run.advance(4)
     assert np.abs(run.velocities).max() < 1e-6
     exact: Array = -run.positions[:, 1]

@@ -28,13 +28,17 @@ COMBINATIONS: list[tuple[str, str, dict[str, Any]]] = [
     ("paper, periodic", "periodic", {**PAPER, "viscosity": "morris"}),
     ("usual", "cavity", USUAL),
     ("usual, periodic", "periodic", {**USUAL, "alpha": 0.05}),
-    ("adami", "cavity", {**USUAL, "neumann": "adami", "wall_velocity": "mirror", "viscosity": "morris"}),
-    ("adami, channel", "channel", {**USUAL, "neumann": "adami", "slip": False, "alpha": 1.0, "laplacian": "oger"}),
-    ("natural", "cavity", {**USUAL, "neumann": "natural", "wall_velocity": "linear", "shifting": "xu"}),
-    ("natural, channel", "channel", {**USUAL, "neumann": "natural", "viscosity": "schwaiger", "laplacian": "oger"}),
-    ("mirror points, symmetric", "channel", {**PAPER, "neumann": "mirror_points", "alpha": 0.0, "shifting": "xu"}),
+    ("adami", "cavity", {**USUAL, "walls": "adami", "continuation": "mirror", "viscosity": "morris"}),
+    (
+        "adami, channel",
+        "channel",
+        {**USUAL, "walls": "adami", "wall_divergence": "continued", "alpha": 1.0, "laplacian": "oger"},
+    ),
+    ("natural", "cavity", {**USUAL, "walls": "natural", "continuation": "linear", "shifting": "xu"}),
+    ("natural, channel", "channel", {**USUAL, "walls": "natural", "viscosity": "schwaiger", "laplacian": "oger"}),
+    ("mirror points, symmetric", "channel", {**PAPER, "walls": "mirror_points", "alpha": 0.0, "shifting": "xu"}),
     ("mirror points, gotoh", "cavity", {**USUAL, "viscosity": "gotoh", "projection": "intermediate", "alpha": 0.2}),
-    ("other laplacians", "channel", {**USUAL, "laplacian": "schwaiger", "neumann": "sfdi", "wall_velocity": "linear"}),
+    ("other laplacians", "channel", {**USUAL, "laplacian": "schwaiger", "walls": "sfdi", "continuation": "linear"}),
     ("laplacian of gotoh", "periodic", {**USUAL, "laplacian": "gotoh", "h_over_dx": 1.4}),
     ("crank_nicolson", "cavity", {**USUAL, "viscosity": "morris", "viscous_step": "crank_nicolson"}),
     ("backward_euler", "channel", {**PAPER, "viscosity": "morris", "viscous_step": "backward_euler"}),
@@ -87,13 +91,13 @@ def test_steps_are_those_of_another_program(
     np.testing.assert_allclose(away, 0.0, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("neumann", ["sfdi", "mirror_points"])
-def test_wall_particles_continue_the_lattice(neumann: str) -> None:
+@pytest.mark.parametrize("wall_model", ["sfdi", "mirror_points"])
+def test_wall_particles_continue_the_lattice(wall_model: str) -> None:
     """As deep as the kernel reaches, from half a spacing behind the wall on; with sfdi on the wall too."""
-    walls = flow("channel", {"neumann": neumann, "viscosity": "morris"}).discretisation.walls
+    walls = flow("channel", {"walls": wall_model, "viscosity": "morris"}).discretisation.walls
     assert walls is not None
     dummies: Dummies = walls.dummies
-    dx, on_wall = 1 / COUNT, [0.0] if neumann == "sfdi" else []
+    dx, on_wall = 1 / COUNT, [0.0] if wall_model == "sfdi" else []
     rows = np.array([*on_wall, 0.5, 1.5, 2.5, 3.5]) * dx
     np.testing.assert_allclose(np.unique(dummies.depths.round(10)), rows, atol=1e-9)
     upper = dummies.positions[:, 1] > 0.5

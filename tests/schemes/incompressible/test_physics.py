@@ -147,9 +147,9 @@ def test_the_density_decays_with_alpha() -> None:
         ({"laplacian": "fatehi_manzari"}, 0.4, 1e-10),  # exact for linear fields on any particles
         ({"laplacian": "fatehi_manzari", "projection": "intermediate", "viscosity": "oger"}, 0.4, 1e-10),
         ({}, 0.3, 2e-3),
-        ({"neumann": "adami"}, 0.0, 1e-10),
-        ({"neumann": "sfdi"}, 0.0, 1e-10),
-        ({"neumann": "natural"}, 0.0, 1e-2),
+        ({"walls": "adami"}, 0.0, 1e-10),
+        ({"walls": "sfdi"}, 0.0, 1e-10),
+        ({"walls": "natural"}, 0.0, 1e-2),
     ],
 )
 def test_a_tank_stays_at_rest(changes: dict[str, Any], disorder: float, tolerance: float) -> None:
@@ -190,9 +190,9 @@ def test_pressure_of_vortices() -> None:
     assert np.linalg.norm(error) < 0.08 * np.linalg.norm(exact)
 
 
-@pytest.mark.parametrize("neumann", ["mirror_points", "sfdi"])
-def test_shifted_particles_stay_apart_where_the_divergence_sees_no_slip_too(neumann: str) -> None:
+@pytest.mark.parametrize("wall_model", ["mirror_points", "sfdi"])
+def test_shifted_particles_stay_apart_where_the_divergence_sees_no_slip_too(wall_model: str) -> None:
     """They ran away where velocities followed shifts by the slope of continued ones, which a lid steepens."""
-    run = case("cavity", resolution=20, reynolds=1000.0, until=2.0, slip=False, neumann=neumann).run()
+    run = case("cavity", resolution=20, reynolds=1000.0, until=2.0, wall_divergence="continued", walls=wall_model).run()
     assert run.end == "time"
     assert min(row["smallest_distance"] for row in run.history) > 0.5

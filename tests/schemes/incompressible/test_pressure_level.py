@@ -62,7 +62,7 @@ def test_a_free_surface_has_its_own_level() -> None:
 
 
 def test_dummies_move_with_their_wall() -> None:
-    flow = case("cavity", resolution=10, wall_velocity="wall").flow
+    flow = case("cavity", resolution=10, continuation="wall").flow
     assert isinstance(flow, IncompressibleFlow)
     walls = flow.discretisation.walls
     assert walls is not None

@@ -43,9 +43,9 @@ def test_other_cylinders(diameter: float, x: float, y: float, spin: float) -> No
     assert run.case.summary(run.settings, flow).keys() == {"u_min"}  # no reference of other cylinders
 
 
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
-def test_each_wall_condition_beside_a_cylinder(neumann: str) -> None:
-    run = case("cavity-cylinder", resolution=24, neumann=neumann, viscosity="oger", max_steps=10).run()
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi", "natural"])
+def test_each_wall_condition_beside_a_cylinder(wall_model: str) -> None:
+    run = case("cavity-cylinder", resolution=24, walls=wall_model, viscosity="oger", max_steps=10).run()
     assert run.end == "steps"
     assert run.history[-1]["divergence"] < 0.5
 
@@ -138,7 +138,7 @@ def test_walls_in_three_dimensions() -> None:
 def test_particles_on_the_walls_of_a_polygon() -> None:
     """Also in its sharp corners."""
     at = fluid_lattice(USERS["triangle"], 1 / 24, UNIT)
-    flow = in_a_tank(24, shape=USERS["triangle"], at=at, viscosity="oger", neumann="sfdi")
+    flow = in_a_tank(24, shape=USERS["triangle"], at=at, viscosity="oger", walls="sfdi")
     flow.advance(5)
     walls = flow.discretisation.walls
     assert walls is not None
@@ -148,15 +148,15 @@ def test_particles_on_the_walls_of_a_polygon() -> None:
 
 
 @pytest.mark.parametrize("radius", [0.2, 0.23])
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
-def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(neumann: str, radius: float) -> None:
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi", "natural"])
+def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(wall_model: str, radius: float) -> None:
     """A row of them in a channel: moved by whole spacings, all is moved, and nothing else changes."""
 
     def flow(x: float) -> IncompressibleFlow:
         shape = Rectangle((-math.inf, 0.0), (math.inf, 1.0)) - Circle((x, 0.5), radius)
         box = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"))
         chosen = IncompressibleSettings.model_validate(
-            {"neumann": neumann, "viscosity": "oger", "alpha": 0.05, "resolution": 24, "tolerance": 1e-11}
+            {"walls": wall_model, "viscosity": "oger", "alpha": 0.05, "resolution": 24, "tolerance": 1e-11}
         )
         at, dx = particles_in(shape, box, chosen)
         start = np.tile([0.5, 0.0], (len(at), 1))
@@ -173,10 +173,10 @@ def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(neumann: str, ra
     np.testing.assert_allclose(end.pressure[same], middle.pressure[place], rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
-def test_left_is_as_good_as_right_and_up(neumann: str) -> None:
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi", "natural"])
+def test_left_is_as_good_as_right_and_up(wall_model: str) -> None:
     """A lid that slides to the left, and a right wall that slides upwards, drive the mirror images of the flow."""
-    found = case("cavity", resolution=14, viscosity="oger", neumann=neumann, tolerance=1e-11).flow
+    found = case("cavity", resolution=14, viscosity="oger", walls=wall_model, tolerance=1e-11).flow
     problem = found.problem
     images = {
         "mirrored": (
@@ -200,7 +200,7 @@ def test_left_is_as_good_as_right_and_up(neumann: str) -> None:
         np.testing.assert_allclose(other.pressure, found.pressure, rtol=0, atol=1e-9)
 
 
-@pytest.mark.parametrize("neumann", ["mirror_points", "adami", "sfdi", "natural"])
+@pytest.mark.parametrize("wall_model", ["mirror_points", "adami", "sfdi", "natural"])
 @pytest.mark.parametrize(
     "corners",
     [
@@ -209,13 +209,13 @@ def test_left_is_as_good_as_right_and_up(neumann: str) -> None:
     ],
     ids=["right", "sharp"],
 )
-def test_fluid_rests_in_sharp_corners(corners: tuple[tuple[float, float], ...], neumann: str) -> None:
+def test_fluid_rests_in_sharp_corners(corners: tuple[tuple[float, float], ...], wall_model: str) -> None:
     shape = Polygon(corners)
     at = fluid_lattice(shape, 1 / 24, UNIT)
-    flow = in_a_tank(24, shape=shape, at=at, viscosity="morris", neumann=neumann)
+    flow = in_a_tank(24, shape=shape, at=at, viscosity="morris", walls=wall_model)
     flow.advance(5)
     fallen = 5 * flow.time_step
-    assert np.abs(flow.velocities).max() < (0.8 if neumann == "natural" else 0.3) * fallen
+    assert np.abs(flow.velocities).max() < (0.8 if wall_model == "natural" else 0.3) * fallen
 
 
 def test_a_shape_that_goes_on_beyond_a_wall_of_the_box_is_refused() -> None:

@@ -145,7 +145,7 @@ class Cavity(FlowCase):
         "incompressible": {"reynolds": 100.0, "resolution": 50, "until": 20.0},
     }
     presets: ClassVar[Mapping[str, Mapping[str, Any]]] = {
-        "basa2009": {"walls": "fixed", "wall_velocity": "quadratic", "correction": "shepard"}
+        "basa2009": {"walls": "fixed", "continuation": "quadratic", "correction": "shepard"}
     }
     time_name = "t"
     headline = "kinetic_energy"

@@ -68,7 +68,7 @@ class DamBreak(FlowCase):
 
     name = "dam-break"
     defaults: ClassVar[Mapping[str, Mapping[str, Any]]] = {
-        "incompressible": {"reynolds": 1000.0, "resolution": 20, "until": 3.3, "wall_velocity": "linear"}
+        "incompressible": {"reynolds": 1000.0, "resolution": 20, "until": 3.3, "continuation": "linear"}
     }
     kinds: ClassVar[Mapping[str, type[Settings]]] = {"incompressible": DamBreakSettings}
     time_name = "t sqrt(n^2 g / a)"

@@ -28,8 +28,8 @@ class FlowOptions(TypedDict, total=False):
     time_step: float | None
     force: bool
     threads: int | None
-    wall_velocity: str
-    slip: bool
+    continuation: str
+    wall_divergence: str
     shifting_strength: float
 
     # of the explicit scheme
@@ -54,7 +54,6 @@ class FlowOptions(TypedDict, total=False):
     laplacian: str | ViscousTerm
     alpha: float | None
     projection: str
-    neumann: str
     shifting: str
     solid: str
     viscous_step: str

@@ -253,7 +253,7 @@ class IncompressibleFlow:
     def introduction(self) -> str:
         """How the pressure is found."""
         settings = self.settings
-        walls = f", walls {settings.neumann}" if self.discretisation.walls is not None else ""
+        walls = f", walls {settings.walls}" if self.discretisation.walls is not None else ""
         return f"pressure to {settings.tolerance:g}, preconditioner {self.pressures.preconditioner}{walls}"
 
     def state(self) -> dict[str, Array]:

@@ -62,9 +62,9 @@ def check_surface_settings(settings: Incompressible, laplacian: LaplacianTerm, k
         raise SphearError(
             f"a free surface fixes the level of the pressure: take pressure_level=free, not {settings.pressure_level}"
         )
-    if settings.neumann in ("sfdi", "natural"):
-        why = "needs fluid before every wall" if settings.neumann == "sfdi" else "carries no weight on walls"
-        raise SphearError(f"neumann={settings.neumann} {why}: with a free surface take mirror_points or adami")
+    if settings.walls in ("sfdi", "natural"):
+        why = "needs fluid before every wall" if settings.walls == "sfdi" else "carries no weight on walls"
+        raise SphearError(f"walls={settings.walls} {why}: with a free surface take mirror_points or adami")
     if laplacian.preparation(kernel, NoCorrection()) is not None:
         raise SphearError(
             f"the setting laplacian={text(settings.laplacian)} needs neighbours on all sides: with a free surface take"

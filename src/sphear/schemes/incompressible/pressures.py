@@ -74,7 +74,7 @@ class Pressures:
         self.density, self.spacing = problem.density, problem.spacing
         self.alpha, self.tolerance = alpha, settings.tolerance
         self.walls = walls
-        self.rows = PressureRows(laplacian, kernel, walls, settings.neumann, problem.box, problem.spacing)
+        self.rows = PressureRows(laplacian, kernel, walls, settings.walls, problem.box, problem.spacing)
         self.fluid = np.zeros(len(problem.positions))
         self.on_walls = np.zeros(self.rows.on_wall)
         self.iterations, self.residual = 0, 0.0

@@ -47,7 +47,7 @@ class PressureRows:
         term: its Laplacian.
         kernel: with its smoothing length.
         walls: None without walls.
-        neumann: how walls enter it, see `Incompressible`.
+        wall_model: how walls enter it, see `Incompressible`.
         box: around the fluid.
         spacing: of the particles.
     """
@@ -57,18 +57,18 @@ class PressureRows:
         term: LaplacianTerm,
         kernel: Kernel,
         walls: Walls | None,
-        neumann: str,
+        wall_model: str,
         box: Box,
         spacing: float,
     ) -> None:
         self.weights = LaplacianWeights(term, kernel, NoCorrection())
         self.moments = LaplacianMoments(term, kernel, NoCorrection())
         self.preparation = term.preparation(kernel, NoCorrection())
-        self.walls, self.neumann, self.box, self.spacing = walls, neumann, box, spacing
+        self.walls, self.wall_model, self.box, self.spacing = walls, wall_model, box, spacing
         self.periodic = box.periodic
         pairwise = self.preparation is None
-        self.symmetric = pairwise and (walls is None or neumann == "natural")
-        self.on_wall = walls.on_wall if walls is not None and neumann == "sfdi" else 0
+        self.symmetric = pairwise and (walls is None or wall_model == "natural")
+        self.on_wall = walls.on_wall if walls is not None and wall_model == "sfdi" else 0
         self.nearest = walls.nearest_on_wall() if self.on_wall and walls is not None else None
 
     def jump(self, accelerations: Array, density: float, ways: Array) -> Array:
@@ -80,12 +80,12 @@ class PressureRows:
             ways: (W, d), w of mirrored pressures; with sfdi the wall's is continued, over the depth.
         """
         walls = self.walls
-        if walls is None or self.neumann == "natural":
+        if walls is None or self.wall_model == "natural":
             return np.zeros(0)
-        if self.neumann == "sfdi":
+        if self.wall_model == "sfdi":
             ways = walls.depths[:, None] * walls.normals
         jump: Array = -density * (accelerations * ways).sum(axis=1)
-        return jump[self.on_wall :] if self.neumann == "sfdi" else jump
+        return jump[self.on_wall :] if self.wall_model == "sfdi" else jump
 
     def equation(self, places: Places, rows: WallRows | None, jump: Array, found: Surface | None) -> Equation:
         """The equation at these places.
@@ -162,9 +162,9 @@ class PressureRows:
 
     def _mirrored(self, rows: WallRows | None, column: Array, unknowns: int) -> csr_array | None:
         """The pressures behind walls as sums over the unknowns."""
-        if rows is None or self.walls is None or self.neumann == "natural":
+        if rows is None or self.walls is None or self.wall_model == "natural":
             return None
-        if self.neumann == "sfdi":
+        if self.wall_model == "sfdi":
             assert self.nearest is not None
             behind = self.nearest[self.on_wall :]
             places = (behind.indices + (column.size - self.walls.count)).astype(np.int32)

@@ -101,7 +101,7 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
     behind = dummies(shape, dx, math.ceil(supports * kernel.radius / dx) * dx, window)
     if not len(behind.positions):
         return None
-    if settings.neumann == "sfdi":
+    if settings.walls == "sfdi":
         behind = _with_row_on_walls(behind, dx, window)
     domain = window if any(problem.periodic) else None
     return Walls(
@@ -109,8 +109,8 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
         dx,
         kernel,
         domain,
-        settings.wall_velocity,
-        settings.neumann == "adami",
+        settings.continuation,
+        settings.walls == "adami",
         problem.free_surface,
         accelerations(shape, behind, dx, window),
         curvatures(shape, behind, dx, window),

@@ -38,12 +38,13 @@ class Incompressible(Scheme):
         projection: where particles are when forces act on them: half a step on, at the "midpoint"; at the "start" of
             the step; or there for viscosity and at the "intermediate" places r* = r + u* dt (eq. 9) for pressure, which
             takes one neighbour search more.
-        neumann: how walls enter the pressure equation: dummy particles with the pressure at their "mirror_points", or
+        walls: how walls enter the pressure equation: dummy particles with the pressure at their "mirror_points", or
             that of the fluid before them ("adami", 2012), both continued with the normal gradient; particles on the
             wall with equations of their own ("sfdi", as in the paper); or "natural", by leaving them out.
-        wall_velocity: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic";
+        continuation: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic";
             or not at all, "wall": dummy particles have that of the wall.
-        slip: dummy particles have the fluid's own velocity along the wall in the divergence, instead of the continued.
+        wall_divergence: velocity of dummy particles along the wall in the divergence: the fluid's own, "slipping", or
+            the one that is "continued" for the viscous term.
         shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009).
         shifting_strength: factor of the shifting, 1 for that of its source; half of it keeps particles as regular and
             costs half the energy.
@@ -69,9 +70,9 @@ class Incompressible(Scheme):
     laplacian: Term = "morris"
     alpha: float | None = Field(default=None, ge=0, le=1)
     projection: Literal["midpoint", "intermediate", "start"] = "midpoint"
-    neumann: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
-    wall_velocity: Literal["mirror", "linear", "quadratic", "wall"] = "quadratic"
-    slip: bool = True
+    walls: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
+    continuation: Literal["mirror", "linear", "quadratic", "wall"] = "quadratic"
+    wall_divergence: Literal["slipping", "continued"] = "slipping"
     shifting: Literal["none", "lind", "xu"] = "lind"
     shifting_strength: float = Field(default=0.5, gt=0, allow_inf_nan=False)
     viscous_step: Literal["explicit", "crank_nicolson", "backward_euler"] = "explicit"
@@ -98,7 +99,7 @@ class Incompressible(Scheme):
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {
-            **dict.fromkeys(("neumann", "wall_velocity", "slip"), (OPEN, not walled)),
+            **dict.fromkeys(("walls", "continuation", "wall_divergence"), (OPEN, not walled)),
             "shifting_strength": ("shifting=none", self.shifting == "none"),
         }
 

@@ -50,7 +50,8 @@ class Discretisation:
         self, problem: Problem, settings: Incompressible, kernel: Kernel, viscous: Viscous, threads: int
     ) -> None:
         self.problem, self.kernel, self.viscous, self.threads = problem, kernel, viscous, threads
-        self.pressure_form, self.pressure_level, self.slip = settings.gradient, settings.pressure_level, settings.slip
+        self.pressure_form, self.pressure_level = settings.gradient, settings.pressure_level
+        self.slips = settings.wall_divergence == "slipping"
         self.correction = arguments.read_correction(settings.gradient_correction, None)
         self.count = len(problem.positions)
         self.region = region(problem)
@@ -170,7 +171,7 @@ class Sums:
 
     def divergent(self, u: Array, since: float = 0.0) -> Array:
         """(N + W, d), velocities as the divergence sees them, of particles that were here a time `since` before."""
-        return self.slipping(u, since) if self.how.slip else self.continued(u)
+        return self.slipping(u, since) if self.how.slips else self.continued(u)
 
     def slipping(self, u: Array, since: float = 0.0) -> Array:
         """(N + W, d), velocities that slip along walls, of particles that were here a time `since` before."""

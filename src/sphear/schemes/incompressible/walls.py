@@ -44,7 +44,7 @@ class Walls:
         spacing: of the particles.
         kind: a kernel, of which the fits take their form.
         domain: with its periodic axes.
-        wall_velocity: how velocities are continued: "mirror", "linear", "quadratic" or not, "wall".
+        continuation: how velocities are continued: "mirror", "linear", "quadratic" or not, "wall".
         adami: fields are those of the fluid around a dummy, not at its mirror point.
         free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
         accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
@@ -57,7 +57,7 @@ class Walls:
         spacing: float,
         kind: Kernel,
         domain: Domain | None,
-        wall_velocity: str,
+        continuation: str,
         adami: bool,
         free_surface: bool = False,
         accelerations: Array | None = None,
@@ -74,8 +74,8 @@ class Walls:
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
         self.mirrors = dummies.positions if adami else self.images
         self.least_pivot = THIN if free_surface else LEAST_PIVOT
-        self.wall_velocity = wall_velocity
-        self.terms = TERMS.get(wall_velocity, 0)
+        self.continuation = continuation
+        self.terms = TERMS.get(continuation, 0)
         # a dummy that is a neighbour of the fluid has fluid around it
         self._mirror_kernel = kind if adami else type(kind)(MIRROR_REACH * spacing / kind.support)
         self._continuation_kernel = type(kind)(CONTINUATION_REACH * spacing / kind.support)
@@ -129,7 +129,7 @@ class Walls:
 
         Behind walls that fluid slips along they are mirrored, so that nothing is sheared there.
         """
-        if self.wall_velocity == "wall":
+        if self.continuation == "wall":
             behind = self.velocities
         elif rows.continued is None:
             behind = 2.0 * self.velocities - rows.mirrored @ velocities

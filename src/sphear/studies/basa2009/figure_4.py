@@ -39,7 +39,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for viscosity, correction, name, on_wall in plan[:2] if quick else plan:
         progress(f"{viscosity}, {name}{', wall particles' if on_wall else ''}")
-        about = {"viscosity": viscosity, "correction": correction, "wall_velocity": name, "wall_particles": on_wall}
+        about = {"viscosity": viscosity, "correction": correction, "continuation": name, "wall_particles": on_wall}
         own = {**about, "equation_of_state": "ideal_gas"}
         settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own}, resolution=resolution)
         runs.append({**about, **_run(settings, times)})
@@ -81,19 +81,19 @@ def present(data: dict[str, Any]) -> StudyResult:
     times = [time for time in (0.02, SHOWN, LATER, 5.0) if time < 1.1 * last]
     rows: list[dict[str, Any]] = []
     for run in runs:
-        about = {key: run[key] for key in ("viscosity", "correction", "wall_velocity", "wall_particles")}
+        about = {key: run[key] for key in ("viscosity", "correction", "continuation", "wall_particles")}
         errors = {f"near_{time:g}": at(run, "near", time) for time in times}
         whole = {f"all_{time:g}": at(run, "all", time) for time in times}
         rows.append({**about, **errors, **whole, f"first_row_{SHOWN:g}": at(run, "first_row", SHOWN)})
     plain = [row for row in rows if row["viscosity"] == OF_THE_PAPER[0] and not row["wall_particles"]]
-    start = {row["wall_velocity"]: row[f"near_{SHOWN:g}"] for row in plain}
+    start = {row["continuation"]: row[f"near_{SHOWN:g}"] for row in plain}
     finding = f"at t* = {SHOWN:g} the RMS error within {data['near']:g} spacings of the walls is {_list(start)}"
     if LATER in times:
-        late = {row["wall_velocity"]: row[f"near_{LATER:g}"] for row in plain}
+        late = {row["continuation"]: row[f"near_{LATER:g}"] for row in plain}
         finding += f"; at t* = {LATER:g} it is {_list(late)}"
         finding += f", where mirroring has let the row at the wall run {at(runs[0], 'first_row', LATER):+.0%} off"
         finding += _of_wall_particles(rows, plain)
-        other = {row["wall_velocity"]: row[f"near_{SHOWN:g}"] for row in rows if row["viscosity"] == OTHER[0]}
+        other = {row["continuation"]: row[f"near_{SHOWN:g}"] for row in rows if row["viscosity"] == OTHER[0]}
         finding += f"; with {OTHER[0]}, uncorrected, at t* = {SHOWN:g} it is {_list(other)}"
     worst = max(start, key=start.__getitem__)
     second = max((name for name in start if name != worst), key=start.__getitem__)
@@ -107,7 +107,7 @@ def present(data: dict[str, Any]) -> StudyResult:
     columns = (
         Column("viscosity", "viscosity"),
         Column("correction", "correction"),
-        Column("wall_velocity", "wall velocity"),
+        Column("continuation", "wall velocity"),
         Column("wall_particles", "on the wall"),
         *(Column(f"near_{time:g}", f"near, t* = {time:g}", ".1%") for time in times),
         Column(f"first_row_{SHOWN:g}", f"first row, t* = {SHOWN:g}", "+.1%"),
@@ -123,8 +123,8 @@ def _list(errors: dict[str, float]) -> str:
 
 def _of_wall_particles(rows: list[dict[str, Any]], plain: list[dict[str, Any]]) -> str:
     key = f"near_{SHOWN:g}"
-    with_them = {row["wall_velocity"]: row[key] for row in rows if row["wall_particles"]}
-    factors = [with_them[row["wall_velocity"]] / row[key] for row in plain]
+    with_them = {row["continuation"]: row[key] for row in rows if row["wall_particles"]}
+    factors = [with_them[row["continuation"]] / row[key] for row in plain]
     return f"; particles on the wall multiply the error at t* = {SHOWN:g} by {min(factors):.2f} to {max(factors):.2f}"
 
 
@@ -138,7 +138,7 @@ def _figure(data: dict[str, Any], title: str) -> Figure:
     panels = {}
     for on_wall in (False, True):
         runs = {
-            run["wall_velocity"]: run
+            run["continuation"]: run
             for run in data["runs"]
             if run["viscosity"] == OF_THE_PAPER[0] and run["wall_particles"] == on_wall and "profile" in run
         }

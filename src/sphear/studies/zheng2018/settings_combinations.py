@@ -25,7 +25,7 @@ class Reading(NamedTuple):
 
 LEAST: dict[str, Any] = {"pressure_level": "least"}
 RENORMALISED: dict[str, Any] = {"gradient": "differences", "gradient_correction": "renormalised"}
-SLIP: dict[str, Any] = {"slip": True}
+SLIP: dict[str, Any] = {"wall_divergence": "slipping"}
 
 READINGS = (
     Reading(STATED, {}, "eqs. 3, 4, 7 to 14 and 20, alpha = 0.01, cubic spline, SFDI on walls; h = 1.2 dx is ours"),
@@ -53,14 +53,14 @@ READINGS = (
     Reading("forces at the start", {"projection": "start"}, "forces before the move, without r*", stated=False),
     Reading("forces at the middle", {"projection": "midpoint"}, "forces after half the move", stated=False),
     # walls
-    Reading("still dummies", {"wall_velocity": "wall"}, "dummies move with the wall, as in most codes of this family"),
-    Reading("mirrored pressure", {"neumann": "mirror_points"}, "walls by mirror points", stated=False),
+    Reading("still dummies", {"continuation": "wall"}, "dummies move with the wall, as in most codes of this family"),
+    Reading("mirrored pressure", {"walls": "mirror_points"}, "walls by mirror points", stated=False),
     Reading("slipping divergence", SLIP, "the divergence does not see that walls hold the fluid"),
     # the time step
     Reading("dt / 4", {"time_step": 0.00025}, "a shorter step, to tell whether it is to blame", False),
     # several at once
     Reading("least zero + slipping", {**LEAST, **SLIP}, "both readings, each of which lives longer"),
-    Reading("least zero + still dummies", {**LEAST, "wall_velocity": "wall"}, "both readings"),
+    Reading("least zero + still dummies", {**LEAST, "continuation": "wall"}, "both readings"),
     Reading("least zero + h = 1.0 dx", {**LEAST, "h_over_dx": 1.0}, "both readings"),
     Reading("least zero + alpha 0.03", {**LEAST, "alpha": 0.03}, "three times the 0.01 stated", stated=False),
     Reading("least zero + alpha 0.1", {**LEAST, "alpha": 0.1}, "ten times the 0.01 stated", stated=False),

@@ -114,8 +114,8 @@ def global_quadratic(x, v, lower, upper, axis, along, velocities, spacing, a, b)
                 b[node, side, k] = -curvature
 
 
-WALL_VELOCITIES: Registry[Any] = Registry("wall velocity")
-WALL_VELOCITIES.add("mirror", mirror, ("mirroring",))
-WALL_VELOCITIES.add("linear", linear)
-WALL_VELOCITIES.add("quadratic", quadratic)
-WALL_VELOCITIES.add("global_quadratic", global_quadratic, ("global",))
+CONTINUATIONS: Registry[Any] = Registry("continuation")
+CONTINUATIONS.add("mirror", mirror, ("mirroring",))
+CONTINUATIONS.add("linear", linear)
+CONTINUATIONS.add("quadratic", quadratic)
+CONTINUATIONS.add("global_quadratic", global_quadratic, ("global",))
