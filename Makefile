@@ -14,7 +14,7 @@ demo: .venv/for-use
 	$(BIN)/sphear reproduce zheng2018 table-1 table-2 figure-3 figure-5 figure-12 --out demo
 
 test: .venv/for-test
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist worksteal
 
 benchmark: .venv/for-use
 	set -e; for script in benchmarks/[!_]*.py; do $(BIN)/python $$script; done

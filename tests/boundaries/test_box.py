@@ -117,7 +117,7 @@ def test_three_dimensions(sides: Any) -> None:
     box = Box((0.0, 0.0, 0.0), (1.0, 1.5, 0.5), sides)
     x = np.random.default_rng(1).random((9, 3)) * box.upper
     assert images(box, x, 0.6, 0.2) == brute_force(box, x, 0.6, 0.2)
-    np.testing.assert_array_equal(box.arrays()[3], np.zeros((3, 2, 3)))
+    np.testing.assert_array_equal(box.arrays()[3], np.zeros((3, 2, 4)))  # velocities, and whether fluid slips
 
 
 def test_room_for_images_grows_with_their_number() -> None:
@@ -134,10 +134,10 @@ def test_room_for_images_grows_with_their_number() -> None:
 def test_velocities_belong_to_the_last_walls() -> None:
     channel = Box((0.0, 0.0), (1.0, 1.0), ("periodic", "walls"), upper_velocity=(2.0, 0.0))
     assert channel.wall_axes == (1,)
-    np.testing.assert_array_equal(channel.arrays()[3], [np.zeros((2, 2)), [[0.0, 0.0], [2.0, 0.0]]])
+    np.testing.assert_array_equal(channel.arrays()[3], [np.zeros((2, 3)), [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]]])
     cavity = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), (-1.0, 0.0), (2.0, 0.0))
     assert cavity.wall_axes == (0, 1)
-    np.testing.assert_array_equal(cavity.arrays()[3], [np.zeros((2, 2)), [[-1.0, 0.0], [2.0, 0.0]]])
+    np.testing.assert_array_equal(cavity.arrays()[3], [np.zeros((2, 3)), [[-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]])
 
 
 def test_no_walls() -> None:
@@ -181,3 +181,8 @@ def test_a_box_that_is_none_is_refused(case: str) -> None:
     arguments, message = WRONG[case]
     with pytest.raises(SphearError, match=message):
         Box(*arguments)
+
+
+def test_walls_that_fluid_slips_along_are_told_behind_their_velocities() -> None:
+    box = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), free_slip=((0, 1), (1, 0)))
+    np.testing.assert_array_equal(box.arrays()[3][..., 2], [[0.0, 1.0], [1.0, 0.0]])
