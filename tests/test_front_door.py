@@ -34,13 +34,16 @@ def test_type_checkers_and_programs_know_the_same_names() -> None:
         if isinstance(node, ast.ImportFrom)
         for alias in node.names
     }
-    assert typed == {(home, name, name) for home, names in sphear._HOMES.items() for name in names}
+    modules = {("sphear", name, name) for name in sphear._MODULES}
+    assert typed == modules | {(home, name, name) for home, names in sphear._HOMES.items() for name in names}
 
 
 def test_every_name_is_what_its_home_has() -> None:
     for home, names in sphear._HOMES.items():
         for name in names:
             assert getattr(sphear, name) is getattr(import_module(home), name)
+    for name in sphear._MODULES:
+        assert getattr(sphear, name) is import_module(f"sphear.{name}")
     assert dir(sphear) == sorted(sphear.__all__)
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         sphear.nonsense  # type: ignore[attr-defined]  # noqa: B018

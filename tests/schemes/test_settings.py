@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -191,4 +191,4 @@ def test_a_preset_that_a_scheme_has_not_is_refused_with_those_it_has(preset: str
 )
 def test_settings_of_before_are_told_by_their_names_of_now(name: str, said: str) -> None:
     with pytest.raises(SphearError, match=f"the setting {name} of 0.1 is .*{said}"):
-        FlowSettings(**{name: True})
+        FlowSettings(**cast(Any, {name: True}))

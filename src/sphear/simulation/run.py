@@ -100,7 +100,7 @@ class Run:
                     raise KeyboardInterrupt
                 self._advance(slices, until, max_steps)
                 last = self.failed or self.flow.time >= until * (1 - ROUND_OFF) or self.flow.steps >= max_steps
-                looked = self._look(last)
+                looked = self._look(last, again=self.failed)  # a step that broke down is none, and yet the end
                 if self.failed:
                     break
                 if last and not self.end:
@@ -146,11 +146,11 @@ class Run:
         """Whether the run broke down."""
         return self.end.startswith("failed")
 
-    def _look(self, last: bool) -> bool:
-        """Let all look for whom it is time, all that have not at the end; whether anyone did."""
+    def _look(self, last: bool, again: bool = False) -> bool:
+        """Let all look for whom it is time, at the end all that have not yet, or all again; whether anyone did."""
         anyone = False
         for number, observer in enumerate(self._watching):
-            if self._looked[number] != self.flow.steps and (last or observer.due(self)):
+            if (again or self._looked[number] != self.flow.steps) and (last or observer.due(self)):
                 self._looked[number] = self.flow.steps
                 observer.watch(self)
                 anyone = True
