@@ -25,7 +25,7 @@ def test_the_settings_of_a_preset_are_in_the_json(sphear: Run) -> None:
 def test_other_options_go_before_those_of_a_preset(sphear: Run) -> None:
     command = ("run", "poiseuille", "--preset", "basa2009", "-v", "violeau", "--set", "continuation=mirror")
     settings = sphear(*command, "--set", "max_steps=1", "--json").json()["settings"]
-    assert (settings["viscosity"], settings["wall_velocity"]) == ("violeau", "mirror")
+    assert (settings["viscosity"], settings["continuation"]) == ("violeau", "mirror")
     assert settings["correction"] == PRESETS["basa2009"]["correction"]
 
 

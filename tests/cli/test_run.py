@@ -160,7 +160,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "no value": (["poiseuille", "--set", "kernel"], "--set takes KEY=VALUE"),
     "unknown term": (["poiseuille", "-v", "moris"], "no viscosity named 'moris': did you mean morris"),
     "unknown kernel": (["poiseuille", "--set", "kernel=cubix"], "no kernel named 'cubix'"),
-    "unknown wall": (["poiseuille", "--set", "continuation=liner"], "no wall velocity named 'liner'"),
+    "unknown wall": (["poiseuille", "--set", "continuation=liner"], "no continuation named 'liner'"),
     "unknown state": (["poiseuille", "--set", "equation_of_state=tate"], "the setting equation_of_state should be"),
     "no number": (["poiseuille", "--set", "reynolds=some"], "the setting reynolds should be a valid number"),
     "Re is zero": (["poiseuille", "--reynolds", "0"], "the setting reynolds should be greater than 0, not 0"),
@@ -186,7 +186,8 @@ WRONG: dict[str, tuple[list[str], str]] = {
     ),
     "slip without mirrors": (
         ["cavity", "--set", "walls=fixed", "--set", "wall_divergence=slipping"],
-        "slip is about the continuity equation beside mirrors, and not for density=continuity with walls=fixed",
+        "wall_divergence=slipping is about the continuity equation beside mirrors, and not for density=continuity with"
+        " walls=fixed",
     ),
     "transport of a continuity": (
         ["poiseuille", "--set", "density=continuity", "--set", "transport=transport_velocity"],

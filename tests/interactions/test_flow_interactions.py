@@ -313,7 +313,7 @@ def before_a_wall() -> tuple[Array, dict[str, Any]]:
         "fluid": (np.arange(count) < count - many).astype(float),
         "normal": np.where(np.arange(count) < count - many, 0.0, 1.0)[:, None] * np.array([0.0, 1.0]),
         "depth": 1.0 - places[:, 1],
-        "continuation": np.tile((0.4, -0.1), (count, 1)),
+        "wall_velocity": np.tile((0.4, -0.1), (count, 1)),
     }
     return places, known
 

@@ -76,7 +76,7 @@ def test_each_entry_is_written_once_and_the_diagonal_first() -> None:
         assert len(set(columns.tolist())) == len(columns)
 
 
-@pytest.mark.parametrize("wall_model", [1, 40])
+@pytest.mark.parametrize("walls", [1, 40])
 def test_there_is_room_for_walls_that_see_much_fluid(walls: int) -> None:
     """Each row has one neighbour behind a wall, which stands for all the fluid: far more than the pair list has."""
     unknowns = 60

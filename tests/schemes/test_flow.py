@@ -109,7 +109,7 @@ def test_a_time_step_beyond_its_limit_is_refused_unless_forced() -> None:
     assert Flow(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
 
 
-@pytest.mark.parametrize("wall_model", ["mirror", "fixed", "adami"])
+@pytest.mark.parametrize("walls", ["mirror", "fixed", "adami"])
 def test_a_resolution_too_coarse_for_the_walls_is_refused(walls: str) -> None:
     Flow(*channel(resolution=4, walls=walls))
     with pytest.raises(SphearError, match=rf"the resolution of 3 is too coarse for walls={walls}: .* 1\.04\d+ reach"):
@@ -147,7 +147,7 @@ def failure(flow: Flow, steps: int = 1) -> tuple[float, int, Array, str]:
     return float(time), int(particle), np.array(place, float), cause
 
 
-@pytest.mark.parametrize("wall_model", ["mirror", "fixed"])
+@pytest.mark.parametrize("walls", ["mirror", "fixed"])
 def test_a_particle_through_a_wall_is_the_one_reported(walls: str) -> None:
     """A spacing beyond a mirror, or half of one into fixed particles; not the fastest one, which stays inside."""
     problem, settings = channel(walls=walls, sound_speed=20.0, time_step=0.01, force=True)
@@ -425,7 +425,7 @@ def test_the_momentum_that_belongs_to_a_density_can_be_named(density: Any) -> No
     assert named.form == FlowSettings(density=density).form == form
 
 
-@pytest.mark.parametrize("name", ["viscosity", "correction", "kernel", "wall_velocity"])
+@pytest.mark.parametrize("name", ["viscosity", "correction", "kernel", "continuation"])
 def test_a_name_that_does_not_exist_is_refused(name: str) -> None:
     wrong: Any = {name: "nobody"}
     with pytest.raises(SphearError, match=r"there is no .* named 'nobody'"):

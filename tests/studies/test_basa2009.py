@@ -176,7 +176,7 @@ def test_sliding_rows_feel_the_drag_of_the_laplacian() -> None:
 
 def test_mirroring_is_worse_than_local_extrapolation_and_never_recovers() -> None:
     rows = {
-        (row["viscosity"], row["wall_velocity"]): row
+        (row["viscosity"], row["continuation"]): row
         for row in channel_study("figure-4").rows
         if not row["wall_particles"]
     }
