@@ -47,6 +47,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
     """
     dimension = v.shape[1]
     along, nodes = wall_nodes(lower, upper, kinds, axis, spacing)
+    slips = (velocities[0, dimension] > 0.5, velocities[1, dimension] > 0.5)
     for e in range(len(source)):
         bits = wall[e]
         for side in range(2):
@@ -56,7 +57,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
                     velocity[e, k] = velocities[side, k]
             elif bits == alone:
                 i = source[e]
-                if velocities[side, dimension] > 0.5:
+                if slips[side]:
                     for k in range(dimension):
                         velocity[e, k] = -v[i, k] if k == axis else v[i, k]
                     continue
@@ -70,7 +71,7 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
                         slope = (1.0 - share) * a[node, side, k] + share * a[after, side, k]
                         bend = (1.0 - share) * b[node, side, k] + share * b[after, side, k]
                         velocity[e, k] = velocities[side, k] - slope * depth + bend * depth**2
-            elif bits & alone and velocities[side, dimension] > 0.5:  # a corner: the other wall reflects the rest
+            elif slips[side] and bits & alone:  # a corner: the other wall reflects the rest
                 for k in range(dimension):
                     if k != axis:
                         velocity[e, k] = -velocity[e, k]
