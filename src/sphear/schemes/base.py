@@ -11,7 +11,7 @@ import numpy as np
 from sphear.errors import SphearError, quoted
 from sphear.names import unknown
 from sphear.schemes.checks import check_connected, check_places
-from sphear.schemes.common import RENAMED, Scheme
+from sphear.schemes.common import Scheme, missing
 from sphear.schemes.incompressible.settings import Incompressible, IncompressibleSettings
 from sphear.schemes.settings import FlowSettings, WeaklyCompressible
 
@@ -117,12 +117,10 @@ def settings_type(scheme: str) -> type[Settings]:
 
 def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearError:
     """The error for a setting that a scheme has not: it is another scheme's, or nobody's."""
-    if key in RENAMED:
-        return SphearError(f"the setting {key} of 0.1 is {RENAMED[key]}")
     of = [name for name, kind in _SETTINGS.items() if key in kind.model_fields]
     if of:
         return SphearError(f"the setting {key} is one of scheme={of[0]}, and this is scheme={scheme}")
-    return unknown("setting", key, known)
+    return missing(key, known)
 
 
 def flow_in_time(problem: Problem, scheme: Scheme, duration: float = math.inf) -> FlowInTime:

@@ -22,6 +22,13 @@ RENAMED = {  # since 0.1
 }
 
 
+def missing(key: str, known: Iterable[str]) -> SphearError:
+    """The error for a setting that there is none of: it has another name since 0.1, or nobody has it."""
+    if key in RENAMED:
+        return SphearError(f"the setting {key} of 0.1 is {RENAMED[key]}")
+    return unknown("setting", key, known)
+
+
 class Choices(BaseModel):
     """Named choices, each checked: an unknown or wrong one is told in one sentence.
 
@@ -34,10 +41,8 @@ class Choices(BaseModel):
     def __init__(self, **choices: Any) -> None:
         known = type(self).model_fields
         for key in choices:
-            if key in RENAMED and key not in known:
-                raise SphearError(f"the setting {key} of 0.1 is {RENAMED[key]}")
             if key not in known:
-                raise unknown("setting", key, known)
+                raise missing(key, known)
         with checked("the setting "):
             super().__init__(**choices)
 

@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from sphear.boundaries import Box
+from sphear.boundaries.shapes import Shape
 from sphear.boundaries.shapes.fastest import fastest
+from sphear.neighbours import Domain
 from sphear.schemes.base import FlowInTime
 from sphear.schemes.energy import EnergyBudget, kinetic_energy
 from sphear.schemes.problem import Problem
@@ -35,7 +38,7 @@ class Watch:
         self.force = np.array(problem.body_force, np.float64)
         self.driven = bool(self.force.any()) or problem.force is not None
         self.varied = problem.force is not None
-        self.walls = wall_speed(problem)
+        self.walls = wall_speed(problem.box, problem.shape, problem.spacing)
         self.fastest = max(self.walls, _largest(problem.velocities))
         self.start = kinetic_energy(self.mass, problem.velocities)
         self.heights = self._heights(problem)
@@ -83,14 +86,12 @@ def _largest(velocities: Array) -> float:
     return math.sqrt(float((velocities**2).sum(axis=1).max(initial=0.0)))
 
 
-def wall_speed(problem: Problem) -> float:
-    """The speed of the fastest wall."""
-    speeds = [
-        math.hypot(*velocity) for velocity in (problem.box.lower_velocity, problem.box.upper_velocity) if velocity
-    ]
-    if problem.shape is not None:
-        speeds.append(fastest(problem.shape, problem.spacing, problem.window))
-    return max(speeds, default=0.0)
+def wall_speed(box: Box, shape: Shape | None, spacing: float) -> float:
+    """The speed of the fastest wall, of a box and of a shape in it."""
+    speeds = [math.hypot(*velocity) for velocity in (box.lower_velocity, box.upper_velocity)]
+    if shape is not None:
+        speeds.append(fastest(shape, spacing, Domain(box.lower, box.upper, box.periodic)))
+    return max(speeds)
 
 
 def unresolved(problem: Problem) -> list[str]:

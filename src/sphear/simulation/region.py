@@ -12,12 +12,11 @@ from sphear.boundaries import Box
 from sphear.boundaries.conditions import Condition, Periodic, WallCondition
 from sphear.boundaries.named_walls import unbounded, walls_by_name, with_conditions
 from sphear.boundaries.shapes import Rectangle, Shape
-from sphear.boundaries.shapes.fastest import fastest
 from sphear.checked import number, numbers
 from sphear.errors import SphearError, quoted
 from sphear.names import unknown
-from sphear.neighbours import Domain
 from sphear.schemes.problem import Problem
+from sphear.schemes.watch import wall_speed
 from sphear.simulation.fluid import Fluid
 from sphear.simulation.particles import Velocity, initial_velocities, lattice
 
@@ -73,7 +72,7 @@ def problem_of(
     extent = min(high - low for low, high in zip(box.lower, box.upper, strict=True))
     given = extent if length is None else length
     force: Any = (0.0,) * len(box.lower) if body_force is None or callable(body_force) else body_force
-    walls = _fastest(box, shape, dx)
+    walls = wall_speed(box, shape, dx)
     return Problem(
         positions=positions,
         velocities=velocities,
@@ -144,14 +143,6 @@ def _box_and_shape(region: Shape, axes: tuple[int, ...]) -> tuple[Box, Shape | N
                     f"the flow repeats along {AXES[axis]}, so that there is no wall {name!r} for a condition"
                 )
     return Box(lower, upper, sides), unbounded(region, axes, lower, upper)
-
-
-def _fastest(box: Box, shape: Shape | None, spacing: float) -> float:
-    """The speed of the fastest wall."""
-    speeds = [math.hypot(*velocity) for velocity in (box.lower_velocity, box.upper_velocity)]
-    if shape is not None:
-        speeds.append(fastest(shape, spacing, Domain(box.lower, box.upper, box.periodic)))
-    return max(speeds)
 
 
 def _speed(walls: float, velocities: Array, force: Any, viscosity: float, extent: float) -> float:
