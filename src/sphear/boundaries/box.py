@@ -133,8 +133,8 @@ class Box:
 
 
 @compiled
-def _fill(x, lower, upper, kinds, reach, on_wall, positions, source, wall):  # type: ignore[no-untyped-def]
-    """Write the entries of `with_images`; their number, or -1 if there is no room for all."""
+def fill_images(x, lower, upper, kinds, reach, on_wall, positions, source, wall):  # type: ignore[no-untyped-def]
+    """Write the entries of `with_images`; their number, or -1 if the arrays have no room for all."""
     count, dimension = x.shape
     for i in range(count):
         source[i], wall[i] = i, 0
@@ -200,7 +200,7 @@ def with_images(x, lower, upper, kinds, reach, on_wall):  # type: ignore[no-unty
     while True:
         # anew for each attempt: an array that a loop replaces is counted at each of its turns
         positions, source, wall = np.empty((room, dimension)), np.empty(room, np.int32), np.empty(room, np.uint8)
-        entries = _fill(x, lower, upper, kinds, reach, on_wall, positions, source, wall)
+        entries = fill_images(x, lower, upper, kinds, reach, on_wall, positions, source, wall)
         if entries >= 0:
             return positions[:entries], source[:entries], wall[:entries]
         room *= 2

@@ -84,10 +84,44 @@ def grid(positions, support):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
-    """The attributes of `CellSort` for positions (E, d), in their order; compiled, so that a time loop can call it."""
+def cell_total(counts):  # type: ignore[no-untyped-def]
+    """All cells of a grid with `counts` along the axes, those of its empty border among them."""
+    cells = np.int64(1)
+    for axis in range(len(counts)):
+        cells *= counts[axis] + 2 * REACH
+    return cells
+
+
+@compiled
+def fill_offsets(counts, offsets):  # type: ignore[no-untyped-def]
+    """Write the (5^(d - 1),) offsets to the rows of cells within reach of a cell."""
+    number, stride = 1, counts[0] + 2 * REACH
+    offsets[0] = 0
+    for axis in range(1, len(counts)):
+        for step in range(2 * REACH, -1, -1):  # the first of them last: the others are made of it
+            for k in range(number):
+                offsets[step * number + k] = (step - REACH) * stride + offsets[k]
+        number *= 2 * REACH + 1
+        stride *= counts[axis] + 2 * REACH
+
+
+@compiled
+def fill_cells(  # type: ignore[no-untyped-def]
+    positions, lower, extent, inverse, counts, coordinates, order, cell, start, unsorted, following
+):
+    """Sort entries into the cells of a grid.
+
+    Args:
+        positions: (E, d), of the entries.
+        lower, extent, inverse, counts: of `grid`.
+        coordinates: (d, at least E + 8), written: in the order of the cells.
+        order: (E,), written: the entry of the input that each one is.
+        cell: (E,), written: its cell.
+        start: (cells + 1,), written: the first entry of each cell.
+        unsorted: (E,), written over.
+        following: (cells,), written over.
+    """
     entries, dimension = positions.shape
-    lower, extent, inverse, counts = grid(positions, support)
     # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
     strides = np.ones(dimension, np.int64)  # the first axis runs fastest
     cells, border = np.int64(1), np.int64(0)
@@ -99,8 +133,8 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
     for axis in range(dimension):
         folded[axis] = extent[axis] * inverse >= counts[axis]
 
-    cell = np.empty(entries, np.int32)
-    start = np.zeros(cells + 1, np.int64)
+    for number_of_cell in range(cells + 1):
+        start[number_of_cell] = 0
     for entry in range(entries):
         number = border
         for axis in range(dimension):
@@ -109,30 +143,38 @@ def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
                 number += fold(along, counts[axis]) * strides[axis]
             else:
                 number += np.int64(along) * strides[axis]
-        cell[entry] = number
+        unsorted[entry] = number
         start[number + 1] += 1
     for number_before in range(cells):
         start[number_before + 1] += start[number_before]
 
-    following = start[:-1].copy()
-    coordinates = np.full((dimension, entries + PADDING), np.inf)
-    order, sorted_cell = np.empty(entries, np.int32), np.empty(entries, np.int32)
+    for number_of_cell in range(cells):
+        following[number_of_cell] = start[number_of_cell]
     for entry in range(entries):
-        place = following[cell[entry]]
-        following[cell[entry]] += 1
+        place = following[unsorted[entry]]
+        following[unsorted[entry]] += 1
         order[place] = entry
-        sorted_cell[place] = cell[entry]
+        cell[place] = unsorted[entry]
         for axis in range(dimension):
             coordinates[axis, place] = positions[entry, axis]
+    for axis in range(dimension):
+        for place in range(entries, entries + PADDING):
+            coordinates[axis, place] = np.inf
 
-    rows = np.zeros(1, np.int64)
-    for axis in range(1, dimension):
-        before = rows
-        rows = np.empty(len(before) * (2 * REACH + 1), np.int64)
-        for step in range(2 * REACH + 1):
-            for k in range(len(before)):
-                rows[step * len(before) + k] = (step - REACH) * strides[axis] + before[k]
-    return coordinates, order, sorted_cell, start, rows
+
+@compiled
+def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
+    """The attributes of `CellSort` for positions (E, d), in their order."""
+    entries, dimension = positions.shape
+    lower, extent, inverse, counts = grid(positions, support)
+    cells = cell_total(counts)
+    coordinates = np.empty((dimension, entries + PADDING))
+    order, cell, unsorted = np.empty(entries, np.int32), np.empty(entries, np.int32), np.empty(entries, np.int32)
+    start, following = np.empty(cells + 1, np.int64), np.empty(cells, np.int64)
+    fill_cells(positions, lower, extent, inverse, counts, coordinates, order, cell, start, unsorted, following)
+    offsets = np.empty((2 * REACH + 1) ** (dimension - 1), np.int64)
+    fill_offsets(counts, offsets)
+    return coordinates, order, cell, start, offsets
 
 
 @compiled

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numba
 import numpy as np
 
 from sphear.boundaries import CONTINUATIONS
+from sphear.engine.backends.cpu import Program, Space
 from sphear.engine.memory import LARGE, keep_freed_memory
+from sphear.engine.stages import CAUSES, EnterBox
 from sphear.engine.threads import loop_threads, thread_count
-from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
-from sphear.schemes.arrays import arrays
+from sphear.schemes.arrays import fields_at_start, integrated
 from sphear.schemes.base import (
     FlowFailure,
     check_kernel,
@@ -27,13 +27,15 @@ from sphear.schemes.base import (
     described,
     fineness,
 )
+from sphear.schemes.columns import columns
+from sphear.schemes.evaluation import evaluation
 from sphear.schemes.formulas import formulas
-from sphear.schemes.integrators import CAUSES
-from sphear.schemes.loop import loop_module
+from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.named import named
 from sphear.schemes.objects import text
-from sphear.schemes.problem import Problem, corner_sound_speed, morris_sound_speed
+from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.sound_speed import energy_at_rest, sound_speed
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -68,70 +70,80 @@ class Flow:
         self.correction = arguments.read_correction(settings.correction, None)
         self.kernel = arguments.read_kernel(settings.kernel, settings.h_over_dx, problem.spacing)
         self.count = len(problem.positions)
-        self.sound_speed = _sound_speed(problem, settings)
+        self.sound_speed = sound_speed(problem, settings)
         self.limits = self.limits_of(problem, settings, self.kernel, self.term)
         self.time_step = chosen_time_step(self.limits, settings)
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))
-        at_start = arrays(settings, problem, chosen, self.kernel, _energy_at_rest(problem, settings))
-        self._x, self._v, self._fields, self._change, self._space, self._numbers, self._constants = at_start
-        self._fresh = False  # whether the rates are those of the state
-        self.threads = min(thread_count(settings.threads, self.count), loop_threads())
-        self._loop_of = partial(
-            loop_module,
-            problem.positions.shape[1],
+        integrator = INTEGRATORS[settings.integrator]
+        at_rest = energy_at_rest(problem, settings)
+        self._fields = fields_at_start(settings, problem, chosen, self.kernel, integrator, at_rest)
+        mirrored = settings.walls == "mirror" and bool(problem.box.wall_axes)
+        rates = evaluation(
             chosen,
-            integrator=settings.integrator,
-            walls=bool(problem.box.wall_axes),
-            mirrored=settings.walls == "mirror",
-            continuation=CONTINUATIONS.name(settings.continuation),
-            wall_particles=settings.wall_particles,
+            columns(set(self._fields)),
+            CONTINUATIONS.name(settings.continuation) if mirrored else None,
+            settings.wall_particles,
         )
-        self._loop = self._loop_of(parallel=self.threads > 1)
+        of = integrated(chosen)
+        fastest = math.inf if settings.gas else self.sound_speed
+        self._step = integrator.step(rates, self.time_step, of, fastest)
+        self._restored = integrator.kept(of) if integrator.restores else ()
+        self._fresh = False  # whether the rates are those of the state
+        self._body_force = np.array(problem.body_force, np.float64)
+        self.threads = min(thread_count(settings.threads, self.count), loop_threads())
+        self._program = self._compiled()
         nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
         self.problem = replace(problem, positions=nothing, velocities=nothing)
+
+    def _compiled(self) -> Program:
+        """The steps, for so many threads."""
+        box = self.problem.box.arrays(self.settings.walls == "mirror")
+        space = Space(*box, spacing=float(self.problem.spacing), support=float(self.kernel.radius))
+        uniform = {"body_force": self._body_force}
+        return Program(self._step.stages, self._fields, uniform, space, self.count, self.threads)
 
     @staticmethod
     def limits_of(
         problem: Problem, settings: WeaklyCompressible, kernel: Kernel, term: ViscousTerm
     ) -> dict[str, float]:
         """The time steps that the CFL, viscous and body-force conditions allow; a flow itself is not needed."""
-        return problem.time_step_limits(kernel.h, _sound_speed(problem, settings), term.radial)
+        return problem.time_step_limits(kernel.h, sound_speed(problem, settings), term.radial)
 
     @property
     def positions(self) -> Array:
         """(N, d)."""
-        return self._x[: self.count]
+        return self._fields["position"][: self.count]
 
     @property
     def velocities(self) -> Array:
         """(N, d)."""
-        return self._v[: self.count]
+        return self._fields["velocity"][: self.count]
 
     @property
     def density(self) -> Array:
         """(N,)."""
-        return self._fields.density[: self.count]
+        return self._fields["density"][: self.count]
 
     @property
     def pressure(self) -> Array:
         """(N,)."""
-        return self._fields.pressure[: self.count]
+        return self._fields["pressure"][: self.count]
 
     @property
     def energy(self) -> Array:
-        """(N,) of an ideal gas, else of one number that means nothing."""
-        return self._fields.energy[: self.count]
+        """(N,) of an ideal gas, else zeros."""
+        return self._fields["energy"][: self.count] if "energy" in self._fields else np.zeros(self.count)
 
     @property
     def drift(self) -> Array:
-        """(N, d) where particles are moved against the fluid, else (1, d) of zeros."""
-        return self._fields.drift[: self.count]
+        """(N, d), zero where nothing moves particles against the fluid."""
+        return self._fields["drift"][: self.count] if "drift" in self._fields else np.zeros_like(self.positions)
 
     @property
     def acceleration(self) -> Array:
         """(N, d), of the last evaluation."""
-        return self._change.velocity
+        return self._fields["acceleration"][: self.count]
 
     def _check_room(self, stages: int) -> None:
         problem, settings = self.problem, self.settings
@@ -158,19 +170,30 @@ class Flow:
             numba.set_num_threads(self.threads)
         if self.count > LARGE:
             keep_freed_memory()
-        fastest = math.inf if self.settings.gas else self.sound_speed
         if self.threads > 1 and loop_threads() == 1:  # made before this process was forked
-            self.threads, self._loop = 1, self._loop_of(parallel=False)
-        made, status, worst = self._loop.advance(
-            self._x, self._v, self._fields, self._change, self.time_step, steps, self._fresh, fastest, self.count,
-            self.threads, self._space, self._numbers, self._constants,
-        )  # fmt: skip
-        self._fresh = status == 0 and (self._fresh or steps > 0 or self.settings.integrator == "kick_drift_kick")
-        self.steps += made
-        self.time = self.steps * self.time_step  # however many are made at once
-        if status:
-            place = ", ".join(f"{x:.6g}" for x in self._x[worst])
-            raise FlowFailure(f"the flow failed at t = {self.time:g}, particle {worst} at ({place}): {CAUSES[status]}")
+            self.threads = 1
+            self._program = self._compiled()
+        if self.settings.integrator == "kick_drift_kick" and not self._fresh:
+            self._run(1, *self._step.evaluation)
+            self._fresh = True
+        self._run(steps)
+
+    def _run(self, steps: int, begin: int = 0, end: int | None = None) -> None:
+        """Run stages of steps, all of them or those of an evaluation."""
+        ended = self._program.run(steps, begin, end)
+        if end is None:
+            moved = isinstance(self._step.stages[ended.stage], EnterBox) if ended.cause else False
+            self.steps += ended.steps + moved
+            self.time = self.steps * self.time_step  # however many are made at once
+        if ended.cause:
+            self._fresh = False
+            if ended.stage < self._step.moved:
+                for name in self._restored:
+                    self._fields[name][...] = self._fields[f"{name}_before"]
+            place = ", ".join(f"{x:.6g}" for x in self._fields["position"][ended.particle])
+            raise FlowFailure(
+                f"the flow failed at t = {self.time:g}, particle {ended.particle} at ({place}): {CAUSES[ended.cause]}"
+            )
 
     def __repr__(self) -> str:
         """How many particles, by which term, and where they stand."""
@@ -205,19 +228,12 @@ class Flow:
         return {name: values.copy() for name, values in self._arrays().items()}
 
     def _arrays(self) -> dict[str, Array]:
+        changing = ("position", "velocity", "density", "pressure", "energy", "drift", "density_gradient",
+                    "acceleration", "density_rate", "energy_rate")  # fmt: skip
         return {
             "clock": np.array([self.time, self.steps]),
-            "x": self._x,
-            "v": self._v,
-            "density": self._fields.density,
-            "pressure": self._fields.pressure,
-            "energy": self._fields.energy,
-            "drift": self._fields.drift,
-            "density_gradient": self._fields.density_gradient,
             "fresh": np.array(self._fresh),
-            "velocity_rate": self._change.velocity,
-            "density_rate": self._change.density,
-            "energy_rate": self._change.energy,
+            **{name: self._fields[name] for name in changing if name in self._fields},
         }
 
     def restore(self, state: dict[str, Array]) -> None:
@@ -232,23 +248,3 @@ class Flow:
             if name not in ("clock", "fresh"):
                 values[...] = state[name]
         self.time, self.steps, self._fresh = float(state["clock"][0]), int(state["clock"][1]), bool(state["fresh"])
-
-
-def _sound_speed(problem: Problem, settings: WeaklyCompressible) -> float:
-    """That of the fluid at rest."""
-    equation, density = settings.equation_of_state, problem.density
-    if isinstance(equation, Barotropic) and equation.rho0 != density:
-        raise SphearError(
-            f"the equation of state {equation!r} is of another fluid: rho0 must be the density of the flow, {density:g}"
-        )
-    if settings.gas:
-        equation = equation if isinstance(equation, IdealGas) else IdealGas()
-    if isinstance(equation, EquationOfState):
-        return float(equation.sound_speed(density, _energy_at_rest(problem, settings)))
-    return settings.sound_speed or max(morris_sound_speed(problem), corner_sound_speed(problem))
-
-
-def _energy_at_rest(problem: Problem, settings: WeaklyCompressible) -> float:
-    gas = settings.equation_of_state
-    gas = gas if isinstance(gas, IdealGas) else IdealGas()
-    return float(gas.energy(problem.density, settings.initial_pressure))

@@ -7,7 +7,6 @@ from typing import Any
 
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
-from sphear.engine.structure import parameters
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState, IdealGas, Linear
 from sphear.errors import SphearError
 from sphear.interactions import (
@@ -58,11 +57,6 @@ class Formulas:
     preparations: tuple[tuple[str, Any], ...]
     stages: tuple[Interaction, ...]
     rates: Rates
-
-    def parameters(self) -> tuple[list[float], ...]:
-        """The numbers of each sweep, in the order of their calls."""
-        before = [self.density, self.wall, *(preparation for _, preparation in self.preparations)]
-        return tuple(parameters(x) for x in (*before, *self.stages) if x is not None)
 
 
 def formulas(

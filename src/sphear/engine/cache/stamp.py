@@ -13,6 +13,7 @@ import numba
 # where functions stand that generated code and other compiled functions call
 FOLDERS = (
     "engine",
+    "engine/backends/cpu",
     "engine/cache",
     "neighbours",
     "boundaries",

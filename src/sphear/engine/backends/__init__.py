@@ -1,0 +1,1 @@
+"""Backends: what turns the stages of a step into code for a machine."""
