@@ -77,14 +77,12 @@ OBJECTS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
 def test_an_object_is_the_name_that_stands_for_it(key: str) -> None:
     scheme, by_object, by_name = OBJECTS[key]
     case = "poiseuille" if key == "ideal_gas" else "cavity"
-    if scheme == "explicit":  # the same text, compiled, and the same numbers in it
+    if scheme == "explicit":  # the same stages, with the same numbers in them
         one, other = (
             Flow(FLOWS[case].problem(chosen), chosen)
             for chosen in (FLOWS[case].explicit(resolution=12, **chosen) for chosen in (by_object, by_name))
         )
-        assert (one._loop, one.sound_speed, one.time_step) == (other._loop, other.sound_speed, other.time_step)
-        for mine, theirs in zip(one._numbers, other._numbers, strict=True):
-            np.testing.assert_array_equal(mine, theirs)
+        assert (one._step, one.sound_speed, one.time_step) == (other._step, other.sound_speed, other.time_step)
         return
     first, second = (flow(case, **chosen) for chosen in (by_object, by_name))
     np.testing.assert_array_equal(first.flow.velocities, second.flow.velocities)

@@ -18,18 +18,16 @@ ENVIRONMENT = {**os.environ, "PYTHONPATH": str(Path(sphear.__file__).parents[1])
 SHORT = ("run", "poiseuille", "--preset", "basa2009", "--resolution", "10", "--until", "0.1")
 # Ctrl-C in the fourth call of the compiled loop, the first of which makes no step
 CTRL_C = """
-import os, signal, sphear.schemes.flow as module
-made, calls = module.loop_module, []
-class Loop:
-    def __init__(self, loop):
-        self.loop = loop
-    def advance(self, *arguments):
-        calls.append(1)
-        result = self.loop.advance(*arguments)
-        if len(calls) == 4:
-            os.kill(os.getpid(), signal.SIGINT)
-        return result
-module.loop_module = lambda *arguments, **options: Loop(made(*arguments, **options))
+import os, signal
+from sphear.engine.backends.cpu import Program
+run, calls = Program.run, []
+def interrupted(*arguments):
+    calls.append(1)
+    result = run(*arguments)
+    if len(calls) == 4:
+        os.kill(os.getpid(), signal.SIGINT)
+    return result
+Program.run = interrupted
 from sphear.cli import main
 main()
 """

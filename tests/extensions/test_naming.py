@@ -64,8 +64,9 @@ def test_a_flow_takes_an_equation_of_state_by_name() -> None:
     one, other = (Flow(FLOWS["cavity"].problem(settings), settings) for settings in chosen)
     assert one.settings.equation_of_state == "my_equation"
     assert one.sound_speed == other.sound_speed
-    for mine, theirs in zip(one._numbers, other._numbers, strict=True):
-        np.testing.assert_array_equal(mine, theirs)
+    one.advance(2)
+    other.advance(2)
+    np.testing.assert_array_equal(one.pressure, other.pressure)
 
 
 def test_a_named_thing_is_pickled_as_what_its_module_has() -> None:

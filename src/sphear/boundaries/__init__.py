@@ -2,6 +2,6 @@
 
 from sphear.boundaries.box import Box
 from sphear.boundaries.continuation import CONTINUATIONS
-from sphear.boundaries.fixed import WallParticles, wall_particles
+from sphear.boundaries.fixed import WallParticles, particles_behind, wall_particles
 
-__all__ = ["CONTINUATIONS", "Box", "WallParticles", "wall_particles"]
+__all__ = ["CONTINUATIONS", "Box", "WallParticles", "particles_behind", "wall_particles"]

@@ -1,4 +1,4 @@
-"""Walls of fixed particles: layers of them on the lattice of the fluid, beyond each wall of a box."""
+"""Walls of fixed particles: layers of them on the lattice of the fluid beyond a box, or in rows behind a shape."""
 
 from __future__ import annotations
 
@@ -7,10 +7,19 @@ from itertools import product
 from typing import Any
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from sphear.boundaries.box import Box
+from sphear.boundaries.shapes import Dummies, Shape, dummies, repeated
+from sphear.boundaries.shapes.base import slipping
+from sphear.errors import SphearError
+from sphear.neighbours import Domain
 
 Array = np.ndarray[Any, Any]
+
+FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
+NEARBY = 0.1  # spacings along the wall, where it is looked for
+STEEP = 0.3  # of that way, off which the wall has turned: a corner of more than 17 degrees
 
 
 @dataclass(frozen=True)
@@ -74,3 +83,43 @@ def wall_particles(box: Box, spacing: float, layers: int) -> WallParticles:
         depths=np.array([row[3] for row in rows]),
         nearest=np.array([number[first] for first in firsts], np.int64),
     )
+
+
+def particles_behind(shape: Shape, spacing: float, depth: float, window: Domain) -> WallParticles:
+    """The particles behind the walls of a shape, in rows along them.
+
+    Args:
+        shape: the region of fluid, in the plane.
+        spacing: of the particles.
+        depth: up to which there are rows.
+        window: the box of interest, with its periodic axes.
+
+    Raises:
+        SphearError: fluid slips along one of the walls, which fixed particles cannot let it.
+    """
+    behind = dummies(shape, spacing, depth, window)
+    if slipping(behind.velocities).any():
+        raise SphearError(
+            "fluid slips along walls of walls=mirror, or of scheme=incompressible, and not along fixed particles, which"
+            f" the walls of {shape} are made of"
+        )
+    straight = ~_in_corners(shape, behind, spacing, window)
+    first = np.flatnonzero((behind.depths < FIRST_ROW * spacing) & straight)
+    nearest = np.arange(len(behind.positions))
+    if len(first):
+        nearest[straight] = first[cKDTree(behind.feet[first]).query(behind.feet[straight])[1]]
+    return WallParticles(
+        behind.positions,
+        behind.velocities,
+        np.where(straight[:, None], behind.normals, 0.0),
+        np.where(straight, behind.depths, 0.0),
+        nearest,
+    )
+
+
+def _in_corners(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
+    """Which particles have their foot in a corner, where the wall goes on in no straight line: (M,)."""
+    whole, step = repeated(shape, window), NEARBY * spacing
+    along = step * np.column_stack((-behind.normals[:, 1], behind.normals[:, 0]))
+    off = [np.abs(whole.distance(window.wrapped(behind.feet + sign * along))) for sign in (1.0, -1.0)]
+    return np.asarray(np.maximum(*off) > STEEP * step)

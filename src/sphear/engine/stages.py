@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, ClassVar, Protocol
+from typing import Any, Protocol
 
 from sphear.engine.formula import Interaction
 
@@ -153,7 +153,6 @@ class CheckFinite:
     """Fail where a vector of the fluid is not finite."""
 
     field: str
-    cause: ClassVar[int] = 2
 
 
 @dataclass(frozen=True)
@@ -161,7 +160,6 @@ class CheckPositive:
     """Fail where a number of a particle is not positive."""
 
     field: str
-    cause: ClassVar[int] = 5
 
 
 @dataclass(frozen=True)
@@ -180,11 +178,12 @@ class EnterBox:
 
 Stage = Images | ImageVelocities | Neighbours | PairSum | Prepare | PerParticle | CheckFinite | CheckPositive | EnterBox
 
-# what went wrong in a step, by the number that a stage gives
+# the statuses of stages that fail, and what went wrong
+TOO_FEW_NEIGHBOURS, NOT_FINITE, TOO_FAST, THROUGH_A_WALL, NOT_POSITIVE = 1, 2, 3, 4, 5
 CAUSES = {
-    1: "too few neighbours for a correction or a fit",
-    2: "an acceleration that is not a number; the time step may be too large, or the particles unstable",
-    3: "a speed above the speed of sound, where the flow is no longer weakly compressible",
-    4: "a particle went through a wall, as when the time step is too long or particles have lost their order",
-    5: "a density or an energy that is not positive, as when particles run apart",
+    TOO_FEW_NEIGHBOURS: "too few neighbours for a correction or a fit",
+    NOT_FINITE: "an acceleration that is not a number; the time step may be too large, or the particles unstable",
+    TOO_FAST: "a speed above the speed of sound, where the flow is no longer weakly compressible",
+    THROUGH_A_WALL: "a particle went through a wall, as when the time step is too long or particles have lost their order",
+    NOT_POSITIVE: "a density or an energy that is not positive, as when particles run apart",
 }

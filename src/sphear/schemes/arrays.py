@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
-from sphear.boundaries import wall_particles
 from sphear.kernels import Kernel
 from sphear.schemes.evaluation import integrated_walls
 from sphear.schemes.formulas import Formulas
 from sphear.schemes.integrators import Integrated, Integrator
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.walls_of_regions import fixed_particles
 
 Array = np.ndarray[Any, Any]
 
@@ -53,10 +52,10 @@ def fields_at_start(
         energy_at_rest: of a unit of mass, where there is an ideal gas.
     """
     count, dimension = problem.positions.shape
-    fixed = settings.walls != "mirror" and bool(problem.box.wall_axes)
+    fixed = settings.walls != "mirror" and problem.walled
     # densities that are summed need all their neighbours too
     depth = kernel.radius * (len(formulas.stages) + (settings.density == "summation"))
-    behind = wall_particles(problem.box, problem.spacing, math.ceil(depth / problem.spacing) if fixed else 0)
+    behind = fixed_particles(problem, settings, depth)
     total = count + len(behind.positions)
 
     def both(of_fluid: Array, of_walls: Array) -> Array:

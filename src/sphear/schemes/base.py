@@ -142,8 +142,8 @@ def flow_in_time(problem: Problem, scheme: Scheme, duration: float = math.inf) -
         raise SphearError(f"a flow is computed by WeaklyCompressible or Incompressible, not by {quoted(scheme)}")
     from sphear.schemes.flow import Flow
 
-    if problem.shape is not None or problem.free_surface:
-        raise SphearError("the explicit scheme knows the walls of boxes only: take scheme=incompressible")
+    if problem.free_surface:
+        raise SphearError("the explicit scheme knows no free surfaces: take scheme=incompressible")
     if problem.force is not None:
         raise SphearError("the explicit scheme knows constant body forces only: take scheme=incompressible")
     return Flow(problem, scheme)
@@ -173,8 +173,15 @@ def fineness(problem: Problem, scheme: Scheme) -> str:
     return f"the spacing of {problem.spacing:g}" if resolution is None else f"the resolution of {resolution}"
 
 
-def check_kernel(problem: Problem, kernel: Kernel, scheme: Scheme) -> None:
-    """Refuse a kernel that reaches no neighbour, or further than a period, or not from part to part of the fluid."""
+def check_kernel(problem: Problem, kernel: Kernel, scheme: Scheme, *, connected: bool = True) -> None:
+    """Refuse a kernel that reaches no neighbour, or further than a period, or not from part to part of the fluid.
+
+    Args:
+        problem: the flow.
+        kernel: with its smoothing length.
+        scheme: of the flow.
+        connected: whether fluid in several parts is refused, whose pressure equation has a constant in each.
+    """
     if kernel.radius <= problem.spacing:
         raise SphearError(
             f"the setting h_over_dx must be more than {kernel.h / kernel.radius:.4g} for {kernel.name}, or no particle"
@@ -186,7 +193,7 @@ def check_kernel(problem: Problem, kernel: Kernel, scheme: Scheme) -> None:
                 f"{fineness(problem, scheme)} is too coarse: the kernel's support of {kernel.radius:g} reaches"
                 f" beyond the period of {high - low:g}"
             )
-    if problem.shape is not None and not problem.free_surface:
+    if connected and problem.shape is not None and not problem.free_surface:
         check_connected(problem, kernel.radius)
 
 

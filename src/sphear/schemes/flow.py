@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +11,7 @@ import numpy as np
 from sphear.boundaries import CONTINUATIONS
 from sphear.engine.backends.cpu import Program, Space
 from sphear.engine.memory import LARGE, keep_freed_memory
-from sphear.engine.stages import CAUSES, EnterBox
+from sphear.engine.stages import CAUSES, THROUGH_A_WALL, EnterBox
 from sphear.engine.threads import loop_threads, thread_count
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
@@ -27,8 +26,6 @@ from sphear.schemes.base import (
     described,
     fineness,
 )
-from sphear.schemes.columns import columns
-from sphear.schemes.evaluation import evaluation
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.named import named
@@ -36,6 +33,8 @@ from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
 from sphear.schemes.sound_speed import energy_at_rest, sound_speed
+from sphear.schemes.step import step_of
+from sphear.schemes.walls_of_regions import check_region, chosen_for, gone_through
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -63,6 +62,7 @@ class Flow:
     """
 
     def __init__(self, problem: Problem, settings: WeaklyCompressible) -> None:
+        settings = chosen_for(problem, settings)
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
         check_start(problem)
@@ -78,17 +78,8 @@ class Flow:
         integrator = INTEGRATORS[settings.integrator]
         at_rest = energy_at_rest(problem, settings)
         self._fields = fields_at_start(settings, problem, chosen, self.kernel, integrator, at_rest)
-        mirrored = settings.walls == "mirror" and bool(problem.box.wall_axes)
-        rates = evaluation(
-            chosen,
-            columns(set(self._fields)),
-            CONTINUATIONS.name(settings.continuation) if mirrored else None,
-            settings.wall_particles,
-        )
-        of = integrated(chosen)
-        fastest = math.inf if settings.gas else self.sound_speed
-        self._step = integrator.step(rates, self.time_step, of, fastest)
-        self._restored = integrator.kept(of) if integrator.restores else ()
+        self._step = step_of(problem, settings, chosen, set(self._fields), self.sound_speed, self.time_step)
+        self._restored = integrator.kept(integrated(chosen)) if integrator.restores else ()
         self._fresh = False  # whether the rates are those of the state
         self._body_force = np.array(problem.body_force, np.float64)
         self.threads = min(thread_count(settings.threads, self.count), loop_threads())
@@ -151,14 +142,15 @@ class Flow:
         supports, so = (
             ("the kernel's support", "reaches") if stages == 1 else (f"{stages} supports of the kernel", "reach")
         )
-        for axis in problem.box.wall_axes:
+        for axis in () if problem.shape is not None else problem.box.wall_axes:
             width = problem.box.upper[axis] - problem.box.lower[axis]
             if reach > width:
                 raise SphearError(
                     f"{fineness(problem, settings)} is too coarse for walls={settings.walls}: {supports} of"
                     f" {reach:g} {so} beyond the width of {width:g} between the walls"
                 )
-        check_kernel(problem, self.kernel, settings)
+        check_kernel(problem, self.kernel, settings, connected=False)
+        check_region(problem, self.kernel, stages)
 
     def advance(self, steps: int) -> None:
         """Make steps.
@@ -185,14 +177,17 @@ class Flow:
             moved = isinstance(self._step.stages[ended.stage], EnterBox) if ended.cause else False
             self.steps += ended.steps + moved
             self.time = self.steps * self.time_step  # however many are made at once
-        if ended.cause:
+        cause, particle = ended.cause, ended.particle
+        if not cause and (through := gone_through(self.problem, self.positions)) >= 0:
+            cause, particle = THROUGH_A_WALL, through
+        if cause:
             self._fresh = False
-            if ended.stage < self._step.moved:
+            if ended.cause and ended.stage < self._step.moved:
                 for name in self._restored:
                     self._fields[name][...] = self._fields[f"{name}_before"]
-            place = ", ".join(f"{x:.6g}" for x in self._fields["position"][ended.particle])
+            place = ", ".join(f"{x:.6g}" for x in self._fields["position"][particle])
             raise FlowFailure(
-                f"the flow failed at t = {self.time:g}, particle {ended.particle} at ({place}): {CAUSES[ended.cause]}"
+                f"the flow failed at t = {self.time:g}, particle {particle} at ({place}): {CAUSES[cause]}"
             )
 
     def __repr__(self) -> str:

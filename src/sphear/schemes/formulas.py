@@ -158,7 +158,7 @@ def _wall(
 ) -> VelocityBeforeWall | FluidBeforeWall | None:
     if problem.box.free_slip:
         _check_free_slip(settings)
-    if settings.walls == "mirror" or not problem.box.wall_axes:
+    if settings.walls == "mirror" or not problem.walled:
         return None
     if settings.walls == "adami":
         return FluidBeforeWall(kernel)

@@ -5,10 +5,8 @@ from __future__ import annotations
 from sphear.engine.backends.cpu.sizes import DIMENSION, FLUID, PARTICLES, WORST
 from sphear.engine.backends.cpu.views import float_table, floats, integers
 from sphear.engine.cache import compiled
-from sphear.engine.stages import CheckFinite, CheckPositive
+from sphear.engine.stages import NOT_FINITE, NOT_POSITIVE, THROUGH_A_WALL, TOO_FAST
 
-NOT_FINITE, NOT_POSITIVE = CheckFinite.cause, CheckPositive.cause
-TOO_FAST, OUTSIDE = 3, 4
 ENTER_BOX = ("limits", "position", "velocity", "lower", "upper", "kinds", "wall_velocities")
 
 
@@ -64,5 +62,5 @@ def enter_box(table, sizes):  # type: ignore[no-untyped-def]
             square, fast = speed, i
     sizes[WORST] = outside if outside >= 0 else fast
     if outside >= 0:
-        return OUTSIDE
+        return THROUGH_A_WALL
     return TOO_FAST if square > fastest * fastest else 0

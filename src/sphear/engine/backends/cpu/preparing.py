@@ -6,8 +6,8 @@ from sphear.engine.backends.cpu.sizes import FLUID, LISTED, WORST
 from sphear.engine.backends.cpu.views import float_table, floats, integer_table, integers, short_integers
 from sphear.engine.cache import compiled
 from sphear.engine.dense import solve_normal_equations
+from sphear.engine.stages import TOO_FEW_NEIGHBOURS
 
-TOO_FEW = 1
 SOLVE = ("equations", "sums", "moments", "right", "solved")
 TEST = ("test", "solved", "target")
 JOIN = ("widths", "one", "other", "both")
@@ -43,7 +43,7 @@ def test(table, sizes):  # type: ignore[no-untyped-def]
     for row in range(sizes[FLUID]):  # the rows of the fluid are the first
         if not rows[row, 0] > least:
             sizes[WORST] = target[row]
-            return TOO_FEW
+            return TOO_FEW_NEIGHBOURS
     return 0
 
 
