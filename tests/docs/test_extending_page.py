@@ -15,7 +15,7 @@ from scipy.integrate import quad
 
 import sphear
 
-PAGE = Path(__file__).parents[2] / "docs" / "extending.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "extending.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
 X = np.random.default_rng(0).random((300, 2))
 

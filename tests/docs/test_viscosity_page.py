@@ -9,7 +9,7 @@ import numpy as np
 import sphear
 from sphear.viscosity.page import page
 
-PAGE = Path(__file__).parents[2] / "docs" / "viscosity.md"
+PAGE = Path(__file__).parents[2] / "docs" / "theory" / "viscosity.md"
 
 
 def test_the_page_is_up_to_date() -> None:

@@ -53,14 +53,14 @@ Numbers that may change are fields of the dataclass. Results name a term by its 
 `Mine(factor=2.1)`, and a saved run or a sweep goes on with a term that is equal in these: after a change of the formula
 take another folder. Worker processes of a sweep import the class, so it stands in a module or
 at the top of the script. A force along the line of centres, or one with a rule for a viscosity that varies, derives
-from `sphear.ViscousTerm` and gives `acceleration`, as `violeau` does. [extending.md](extending.md) has the decorator,
-names on the command line and in packages, and kernels and corrections.
+from `sphear.ViscousTerm` and gives `acceleration`, as `violeau` does. [Extending](../how-to/extending.md) has the
+decorator, names on the command line and in packages, and kernels and corrections.
 
 """
 
 
 def page() -> str:
-    """The text of docs/viscosity.md."""
+    """The text of docs/theory/viscosity.md."""
     facts = measured()
     table = [
         "| term | order, lattice | order, jittered | linear momentum | angular momentum | only dissipates | cost |"

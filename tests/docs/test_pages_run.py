@@ -1,0 +1,85 @@
+"""The code that pages show runs, and does what they say."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sphear
+
+DOCS = Path(__file__).parents[2] / "docs"
+MOVE = (DOCS / "how-to" / "move-from-0.1.md").read_text(encoding="utf-8")
+BLOCK = re.compile(r"(?P<before>In 0\.1:\n\n)?```python\n(?P<code>.*?)```", re.DOTALL)
+
+
+@pytest.fixture
+def module(monkeypatch: pytest.MonkeyPatch) -> Iterator[ModuleType]:
+    """The module that the blocks of a page are run in; names that they register are forgotten."""
+    made = ModuleType("shown")
+    monkeypatch.setitem(sys.modules, "shown", made)
+    yield made
+    for name in set(sphear.VISCOSITY) - sphear.VISCOSITY.published:
+        sphear.VISCOSITY.remove(name)
+
+
+def run(page: str, module: ModuleType) -> Iterator[dict[str, Any]]:
+    """Run the blocks of a page, but those of 0.1, one after the other; the names that each leaves behind."""
+    for block in BLOCK.finditer((DOCS / page).read_text(encoding="utf-8")):
+        if not block["before"]:
+            exec(compile(block["code"], "shown", "exec", dont_inherit=True), vars(module))
+            yield vars(module)
+
+
+def test_the_tutorial(module: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+    first, second = (dict(names) for names in run("tutorial.md", module))
+    assert first["simulation"].time == pytest.approx(1, abs=first["simulation"].flow.time_step)
+    assert "Reynolds   100" in capsys.readouterr().out
+    assert len(second["history"].table["time"]) == 11  # at the start and every tenth
+    assert second["profile"].values.min() < -0.05
+
+
+def test_running_a_case(module: ModuleType) -> None:
+    (names,) = run("how-to/run-a-case.md", module)
+    assert names["run"].end == "time"
+
+
+def test_comparing_with_a_reference(module: ModuleType) -> None:
+    (names,) = run("how-to/compare-with-a-reference.md", module)
+    assert np.abs(names["profile"].values - names["exact"]).max() < 1e-3
+
+
+def test_what_scripts_of_0_1_become(module: ModuleType) -> None:
+    walls, presets, own, channel, watched, names = (dict(found) for found in run("how-to/move-from-0.1.md", module))
+    assert walls["run"].settings.walls == "sfdi"
+    assert (presets["old"].settings.density, presets["new"].settings.density) == ("summation", "continuity")
+    assert len(own["simulation"].history["divergence"]) == 3
+    assert channel["simulation"].velocities[:, 0].max() > 0
+    assert watched["simulation"].end == "stopped"
+    assert 0.2 < watched["simulation"].time < 0.5
+    assert len(watched["speeds"].rows) == -(-watched["simulation"].steps // 2)
+    x = np.random.default_rng(0).random((300, 2))
+    np.testing.assert_allclose(sphear.laplacian(x, x[:, 0], viscosity="mine"), sphear.laplacian(x, x[:, 0]), rtol=1e-9)
+    assert names["sphear"].VISCOSITY["gotoh_printed"] == sphear.Gotoh(printed=True)
+
+
+@pytest.mark.parametrize(("old", "new"), re.findall(r"^\| `(\w+=\w+)` \| `(\w+=\w+)` \|$", MOVE, re.MULTILINE))
+def test_settings_of_0_1_are_refused_and_the_new_ones_taken(old: str, new: str) -> None:
+    (key, value), (name, chosen) = old.split("="), new.split("=")
+    with pytest.raises(sphear.SphearError, match=rf"{key} of 0\.1 is called {name}"):
+        sphear.flow("cavity", scheme="incompressible", **{key: value})  # type: ignore[arg-type]
+    run = sphear.flow("cavity", scheme="incompressible", resolution=12, **{name: chosen})  # type: ignore[arg-type]
+    assert getattr(run.settings, name) == chosen
+
+
+def test_the_presets_of_0_1_are_gone() -> None:
+    assert len(re.findall(r"^\| `(\w+=\w+)` \| `(\w+=\w+)` \|$", MOVE, re.MULTILINE)) == 4
+    for name in ("modern", "paper"):
+        with pytest.raises(sphear.SphearError, match="there is no preset"):
+            sphear.flow("cavity", preset=name)
