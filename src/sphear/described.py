@@ -43,7 +43,7 @@ def explained(settings: type[BaseModel], registries: dict[str, str] | None = Non
 
 
 def _meanings(kind: type) -> dict[str, str]:
-    """What the section `Attributes` of a class's own docstring says of each."""
+    """Meanings from the section `Attributes` of a class's own docstring."""
     lines = inspect.cleandoc(vars(kind).get("__doc__") or "").splitlines()
     found: dict[str, str] = {}
     names: list[str] = []

@@ -69,6 +69,45 @@ def test_what_scripts_of_0_1_become(module: ModuleType) -> None:
     assert names["sphear"].VISCOSITY["gotoh_printed"] == sphear.Gotoh(printed=True)
 
 
+@pytest.fixture
+def small(module: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> ModuleType:
+    """The module with a small simulation, which writes into a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    made = cavity()
+    parts = {"region": made.region, "fluid": made.fluid, "boundaries": made.boundaries}
+    vars(module).update(sphear=sphear, simulation=made, **parts)
+    return module
+
+
+def cavity() -> sphear.Simulation:
+    return sphear.Simulation(
+        sphear.Rectangle((0, 0), (1, 1)),
+        spacing=0.1,
+        fluid=sphear.Fluid(kinematic_viscosity=0.05),
+        boundaries={"upper": sphear.NoSlip(velocity=(1, 0))},
+        observers=[sphear.History(every=0.5)],
+    )
+
+
+def test_going_on_with_a_simulation(small: ModuleType) -> None:
+    (names,) = run("how-to/resume.md", small)
+    assert 10 <= names["simulation"].time < 10 + names["simulation"].flow.time_step
+    assert cavity().restore("state.npz").time == pytest.approx(5, abs=names["simulation"].flow.time_step)
+
+
+def test_reading_results(small: ModuleType, tmp_path: Path) -> None:
+    page = (DOCS / "how-to" / "read-results.md").read_text(encoding="utf-8")
+    first = small.simulation.run(until=1)
+    blocks = [block["code"] for block in BLOCK.finditer(page) if "pandas" not in block["code"]]
+    assert len(blocks) == 3
+    for block in blocks:
+        exec(compile(block, "shown", "exec", dont_inherit=True), vars(small))
+    assert np.load("flow.npz")["velocities"].shape == (100, 2)
+    history = np.genfromtxt("history.csv", delimiter=",", names=True)
+    np.testing.assert_array_equal(history["time"], first.history["time"])
+    assert (tmp_path / "flow.png").stat().st_size > 1000
+
+
 @pytest.mark.parametrize(("old", "new"), re.findall(r"^\| `(\w+=\w+)` \| `(\w+=\w+)` \|$", MOVE, re.MULTILINE))
 def test_settings_of_0_1_are_refused_and_the_new_ones_taken(old: str, new: str) -> None:
     (key, value), (name, chosen) = old.split("="), new.split("=")

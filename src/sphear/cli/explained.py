@@ -25,7 +25,7 @@ def of_settings(kind: type[BaseModel]) -> dict[str, dict[str, str]]:
 
 
 def case_lines(facts: Mapping[str, Any]) -> list[str]:
-    """What a case is, its settings, those that all its schemes share first, and its presets."""
+    """A case in a sentence, its settings, those that all its schemes share first, and its presets."""
     schemes = facts.get("schemes", ["settings"])
     first = schemes[0]
     both = [
