@@ -64,6 +64,13 @@ def test_every_page_is_in_the_index() -> None:
     assert pages - elsewhere - index == set()
 
 
+@pytest.mark.parametrize("folder", ["how-to", "theory", "measurements"])
+def test_every_page_leads_to_the_glossary(folder: str) -> None:
+    pages = list((DOCS / folder).glob("*.md"))
+    assert len(pages) >= 6
+    assert [page.name for page in pages if "(../reference/glossary.md)" not in page.read_text(encoding="utf-8")] == []
+
+
 def test_every_public_name_is_listed_once_and_no_other() -> None:
     rows = re.findall(r"^\| (`.*?`) \|", (DOCS / "reference" / "names.md").read_text(encoding="utf-8"), re.MULTILINE)
     listed = [name for row in rows for name in re.findall(r"`(\w+)`", row)]
