@@ -64,6 +64,19 @@ def test_every_page_is_in_the_index() -> None:
     assert pages - elsewhere - index == set()
 
 
+def test_pages_that_are_cited_by_programs_are_there() -> None:
+    programs = [
+        path for folder in ("src", "validation", "benchmarks", "examples") for path in (ROOT / folder).rglob("*.py")
+    ]
+    cited = {
+        (str(path.relative_to(ROOT)), page)
+        for path in programs
+        for page in CITED.findall(path.read_text(encoding="utf-8"))
+    }
+    assert len(cited) >= 4
+    assert [(path, page) for path, page in sorted(cited) if not (ROOT / page).exists()] == []
+
+
 @pytest.mark.parametrize("folder", ["how-to", "theory", "measurements"])
 def test_every_page_leads_to_the_glossary(folder: str) -> None:
     pages = list((DOCS / folder).glob("*.md"))
