@@ -2,8 +2,8 @@
 
     python validation/incompressible_orders.py
 
-- `spacing`: a manufactured flow in a closed square at Re = 100, t = 1/2, with alpha = 0, because sums over strained
-  neighbourhoods are some 0.3 % off, which the source would take for crowding, and one term with other settings; a
+- `spacing`: a manufactured flow in a closed square at Re = 100, t = 1/2, with alpha = 0, because the source
+  mistakes the 0.3 % error of density sums in sheared neighbourhoods for crowding, and one term with other settings; a
   Taylor-Green vortex at Re = 100, t = 1/5, alpha = 0, from particles that are relaxed and from a lattice. The time step
   falls with the spacing.
 - `time`: the manufactured flow with 64 particles a side and steps that are halved.

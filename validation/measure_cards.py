@@ -19,7 +19,7 @@ from sphear.viscosity.page import page
 
 TARGET = Path(__file__).parents[1] / "src" / "sphear" / "viscosity" / "measured.json"
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
-CARDS = Path(__file__).parents[1] / "docs" / "viscosity.md"
+CARDS = Path(__file__).parents[1] / "docs" / "theory" / "viscosity.md"
 
 
 def measured() -> dict[str, dict[str, Any]]:

@@ -35,13 +35,15 @@ def explained(settings: type[BaseModel], registries: dict[str, str] | None = Non
     said = {name: text for kind in reversed(settings.__mro__) for name, text in _meanings(kind).items()}
     registries = registries or {}
     return {
-        name: Explained(said.get(name, ""), registries.get(name) or _values(field), field.default)
+        name: Explained(
+            said.get(name, ""), (not _chosen(field) and registries.get(name)) or _values(field), field.default
+        )
         for name, field in settings.model_fields.items()
     }
 
 
 def _meanings(kind: type) -> dict[str, str]:
-    """What the section `Attributes` of a class's own docstring says of each."""
+    """Meanings from the section `Attributes` of a class's own docstring."""
     lines = inspect.cleandoc(vars(kind).get("__doc__") or "").splitlines()
     found: dict[str, str] = {}
     names: list[str] = []
@@ -55,6 +57,11 @@ def _meanings(kind: type) -> dict[str, str]:
         elif inside and (more := _MORE.match(line)):
             found |= {name: f"{found[name]} {more[1]}" for name in names}
     return found
+
+
+def _chosen(field: FieldInfo) -> bool:
+    """True of a setting that says its own choices, whatever else of its name is listed."""
+    return get_origin(field.annotation) is Literal
 
 
 def _values(field: FieldInfo) -> str:

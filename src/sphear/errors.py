@@ -23,7 +23,7 @@ class OutputError(SphearError):
 
 
 class SphearWarning(UserWarning):
-    """What can be computed but is hardly meant; the message is one sentence."""
+    """An input that can be computed but is hardly meant; the message is one sentence."""
 
 
 class Interrupted(Exception):

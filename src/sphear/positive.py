@@ -7,7 +7,7 @@ from typing import Any
 
 
 def is_positive(value: Any) -> bool:
-    """Whether a value is a positive finite number; text, truth values and numbers beyond floats are none."""
+    """True if a value is a positive finite number; text, truth values and numbers beyond floats are none."""
     if isinstance(value, str | bytes | bool):
         return False
     try:

@@ -59,7 +59,7 @@ def positive_number(value: Any, name: str) -> float:
 
 
 def _lost(values: Any) -> str | None:
-    """What the conversion to an array would drop, in words; None if nothing."""
+    """The meaning that a conversion to an array would drop, in words; None if nothing."""
     if isinstance(values, np.ma.MaskedArray):
         masked = int(np.ma.getmaskarray(values).sum())
         return f"{masked} of its {values.size} values are masked: leave these particles out" if masked else None
@@ -80,5 +80,5 @@ def _lost(values: Any) -> str | None:
 
 
 def _counts(index: Any) -> bool:
-    """Whether an index only counts 0, 1, 2, ..."""
+    """True if an index only counts 0, 1, 2, ..."""
     return bool(np.array_equal(np.asarray(index), np.arange(len(index))))

@@ -66,7 +66,7 @@ def remove_partial(folder: Path, prefix: str = "") -> None:
 
 
 def is_running(process: int) -> bool:
-    """Whether a process of this machine is there; where that cannot be asked, it is."""
+    """True if a process of this machine is there; where that cannot be asked, it is."""
     if os.name != "posix":
         return True
     try:

@@ -165,6 +165,7 @@ def test_choices_and_bounds_are_shown(sphear: Run) -> None:
     said = " ".join(sphear("show", "case", "dam-break").out.split())
     for text in ("walls = mirror_points mirror_points, adami, sfdi, natural", "tank = 6 a number >= 1.5 and <= 1000",
                  "alpha = none a number >= 0 and <= 1, or none", "kernel = wendland_c2 cubic_spline, quartic_spline",
+                 "continuation = linear mirror, linear, quadratic, wall how",
                  "column = 2 a number > 0 and <= 100 its height over its width."):  # fmt: skip
         assert text in said
 

@@ -15,8 +15,9 @@ from scipy.integrate import quad
 
 import sphear
 
-PAGE = Path(__file__).parents[2] / "docs" / "extending.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "extending.md"
 EXAMPLES = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+TERMS = ("mine", "Mine(factor=2.1)", "morris")
 X = np.random.default_rng(0).random((300, 2))
 
 
@@ -40,6 +41,12 @@ def test_the_examples_do_what_the_page_says(names: dict[str, Any], capsys: pytes
     for lap in (names["lap"], names["same"]):
         np.testing.assert_allclose(lap, sphear.laplacian(x, x[:, 0] ** 2), rtol=1e-12)
     assert (run.end, run.as_dict()["settings"]["viscosity"]) == ("time", "mine")
+    other = names["other"].as_dict()
+    assert (other["metrics"]["end"], other["settings"]["viscosity"]) == ("time", "Mine(factor=2.1)")
+    assert other["metrics"]["kinetic_energy"] < run.history[-1]["kinetic_energy"]  # it is 5 % more viscous
+    own, more, morris = ([row["l1"] for row in names["rows"] if row["viscosity"] == term] for term in TERMS)
+    np.testing.assert_allclose(own, morris, rtol=1e-12)
+    assert more[0] > own[0]
     by_function = sphear.laplacian(X, values, viscosity="from_function")
     np.testing.assert_allclose(by_function, sphear.laplacian(X, values), rtol=1e-12)
     weaker = sphear.gradient(X, values, correction="weaker")

@@ -27,3 +27,13 @@ def test_a_state_under_another_force_is_refused(tmp_path: Path) -> None:
     channel(0.8).save(tmp_path / "state.npz")
     with pytest.raises(sphear.SphearError, match=r"has body_force = \(0\.8, 0\.0\), not \(0\.1, 0\.0\)$"):
         channel(0.1).restore(tmp_path / "state.npz")
+
+
+def test_a_file_may_be_named_by_a_text(tmp_path: Path) -> None:
+    channel(0.8).save(str(tmp_path / "state.npz"))
+    assert channel(0.8).restore(str(tmp_path / "state.npz")).steps == 0
+    run = sphear.flow("taylor-green", scheme="incompressible", resolution=12, max_steps=1)
+    steps = run.run(keep=str(tmp_path / "vortices.npz")).flow.steps
+    again = sphear.flow("taylor-green", scheme="incompressible", resolution=12, max_steps=1)
+    again.restore(str(tmp_path / "vortices.npz"))
+    assert again.flow.steps == steps == 1

@@ -1,4 +1,4 @@
-"""What a viscous term conserves, measured: linear momentum, angular momentum, and the sign of its dissipation."""
+"""Conservation by a viscous term, measured: linear momentum, angular momentum, and the sign of its dissipation."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Conservation:
     energy: float
 
     def kept(self) -> dict[str, bool]:
-        """Whether each holds to rounding."""
+        """Each property, true if it holds to rounding."""
         return {
             "linear_momentum": self.linear_momentum < ROUND_OFF,
             "angular_momentum": self.angular_momentum < ROUND_OFF,
@@ -78,7 +78,7 @@ def conservation(
 
 
 def is_linear(acceleration: Any, u: Array, v: Array) -> bool:
-    """Whether a(u + v) = a(u) + a(v) to rounding."""
+    """True if a(u + v) = a(u) + a(v) to rounding."""
     together, apart = acceleration(u + v), acceleration(u) + acceleration(v)
     return bool(np.abs(together - apart).max() < ROUND_OFF * np.abs(together).max())
 

@@ -99,7 +99,7 @@ class Node:
 
 
 def _negative(node: Node) -> bool:
-    """Whether a node is a negative number or has one as its first factor, so that it is written with a minus."""
+    """True if a node is a negative number or has one as its first factor, so that it is written with a minus."""
     head = node.operands[0].head if node.head == "*" else node.head
     return isinstance(head, float) and head < 0.0
 

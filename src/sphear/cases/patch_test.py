@@ -37,13 +37,19 @@ class PatchTest(BaseModel):
         field: name of a field or an expression of x, y, z.
         velocity: act on the divergence-free velocity whose stream function the field is, instead of on the field
             itself; the terms whose pair force is radial can do nothing else.
-        kernel, h_over_dx, correction, fallback, precision, threads: as `sphear.laplacian` takes them.
-        dimension: 2 or 3.
-        jitter: of the positions, in spacings.
+        kernel: name of a kernel, or an object with its own h.
+        h_over_dx: smoothing length over particle spacing; None gives a support of 3.14 dx.
+        correction: consistency correction of the kernel, a name or an object; a term with its own takes no other.
+        dimension: of space; particles fill a square or a cube.
+        jitter: random displacement of the particles along each axis, jitter (R - 1/2) dx with R uniform in (0, 1).
         seed: of the first set of positions.
         seeds: sets of positions, whose errors are averaged.
         edges: "continued" sets particles beyond the edges too; "truncated" leaves the square alone in space.
         samples: "interior" takes the particles whose support lies inside the square, "all" those of the whole square.
+        fallback: where a particle has too few neighbours for a correction or a fit, "uncorrected" takes the term
+            without correction, or `morris` for a term with its own, "nan" gives no number; None refuses.
+        precision: of the sums.
+        threads: None takes all processors for many particles, one for few.
 
     Raises:
         SphearError: a setting is unknown or wrong.

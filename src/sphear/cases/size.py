@@ -1,4 +1,4 @@
-"""How many particles there is memory for, told before they are made."""
+"""The number of particles that there is memory for, checked before they are made."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def main() -> None:
 
 
 def _discard_output() -> None:
-    """Nothing more goes to stdout, what is still held back included."""
+    """Discard what still goes to stdout, what is held back included."""
     if sys.stdout is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

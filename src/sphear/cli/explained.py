@@ -25,7 +25,7 @@ def of_settings(kind: type[BaseModel]) -> dict[str, dict[str, str]]:
 
 
 def case_lines(facts: Mapping[str, Any]) -> list[str]:
-    """What a case is, its settings, those that all its schemes share first, and its presets."""
+    """A case in a sentence, its settings, those that all its schemes share first, and its presets."""
     schemes = facts.get("schemes", ["settings"])
     first = schemes[0]
     both = [
@@ -47,7 +47,7 @@ def case_lines(facts: Mapping[str, Any]) -> list[str]:
             lines += _section(f"settings of scheme={scheme}", facts, scheme, own)
     for scheme, presets in facts.get("presets", {}).items():
         for name, settings in presets.items():
-            chosen = ", ".join(f"{key}={_short(value)}" for key, value in settings.items())
+            chosen = ", ".join(f"{key}={short(value)}" for key, value in settings.items())
             lines += ["", f"  --preset {name} (scheme={scheme})", *_wrapped(chosen)]
     return lines
 
@@ -55,7 +55,7 @@ def case_lines(facts: Mapping[str, Any]) -> list[str]:
 def _section(title: str, facts: Mapping[str, Any], scheme: str, names: Iterable[str]) -> list[str]:
     lines = ["", f"  {title}"]
     for name in names:
-        about, value = facts["explained"][scheme][name], _short(facts[scheme][name])
+        about, value = facts["explained"][scheme][name], short(facts[scheme][name])
         head = f"    {name} = {value}"
         one_line = f"{head:<40} {about['values']}"
         lines += [one_line] if len(one_line) <= WIDTH else [head, *_wrapped(about["values"])]
@@ -67,7 +67,8 @@ def _wrapped(text: str) -> list[str]:
     return wrap(text, WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 8, break_on_hyphens=False)
 
 
-def _short(value: Any) -> str:
+def short(value: Any) -> str:
+    """A value as it is written on the command line."""
     if isinstance(value, list | tuple):
         return ", ".join(map(str, value))
     if isinstance(value, bool):

@@ -1,4 +1,4 @@
-"""What `sphear run --out DIR` keeps in a folder: taken over, computed and written so that nothing of it is lost."""
+"""The folder of `sphear run --out DIR`: taken over, computed and written so that nothing of it is lost."""
 
 from __future__ import annotations
 

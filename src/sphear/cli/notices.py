@@ -1,4 +1,4 @@
-"""What the engine has to say, as lines on stderr: that it compiles, and what is wrong with its cache."""
+"""Notices of the engine as lines on stderr: that it compiles, and what is wrong with its cache."""
 
 from __future__ import annotations
 

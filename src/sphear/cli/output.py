@@ -1,4 +1,4 @@
-"""What a command prints and writes: tables or JSON on stdout, progress on a terminal's stderr, files in a folder."""
+"""Output of a command: tables or JSON on stdout, progress on a terminal's stderr, files in a folder."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def print_json(value: Any) -> None:
 
 
 def print_sentence(text: str) -> None:
-    """What is said beside results, on stderr, on one line."""
+    """Print a sentence beside results, on stderr, on one line."""
     print(f"sphear: {' '.join(text.split())}", file=sys.stderr)
 
 
 def is_terminal(stream: TextIO | None) -> bool:
-    """Whether someone is watching; a closed stream is None."""
+    """True if someone is watching; a closed stream is None."""
     return stream is not None and stream.isatty()
 
 
@@ -75,7 +75,7 @@ def progress(what: str) -> Iterator[Callable[[str], None]]:
 
 
 def now_and_then(what: str, stream: TextIO | None) -> Callable[[str], None]:
-    """What writes lines for a log file: the first after 10 s, then each time that took twice as long, or 10 minutes.
+    """A writer of lines for a log file: the first after 10 s, then each time that took twice as long, or 10 minutes.
 
     Args:
         what: is being done.
@@ -124,5 +124,5 @@ def write(
 
 
 def print_files(out: OutputFolder) -> None:
-    """Where the files are."""
+    """Print where the files are."""
     print_text("written: " + ", ".join(str(path) for path in out.files))

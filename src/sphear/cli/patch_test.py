@@ -85,7 +85,7 @@ def _settings(**values: Any) -> PatchTest:
 
 
 def _title(test: PatchTest) -> tuple[str, str]:
-    """What is differentiated, and on which particles."""
+    """The field that is differentiated, and the particles that carry it."""
     acted = f"velocity of stream function {test.field}" if test.velocity else test.field
     particles = f"jitter {test.jitter:g} dx" if test.jitter else "lattice"
     return f"Patch test, {acted}", f"{test.dimension}-D, {test.kernel}, {particles}, edges {test.edges}"

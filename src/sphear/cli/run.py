@@ -92,7 +92,7 @@ def run(
 
 
 def _start(run: FlowRun) -> str:
-    """What is printed before the first step."""
+    """Text before the first step."""
     flow, settings = run.flow, run.settings
     limit, longest = min(flow.limits.items(), key=lambda item: item[1])
     neighbours = math.pi * (flow.kernel.radius / flow.problem.spacing) ** 2 - 1
@@ -146,7 +146,7 @@ def _particles(run: FlowRun) -> Table:
 
 
 def _summary(metrics: dict[str, Any], table: Table) -> str:
-    """What was found at the end, beside the columns of the table."""
+    """Results at the end, beside the columns of the table."""
     shown = {column.key for column in table.columns} | {"time", "steps", "end", "failure_time"}
     found = [
         "reference steady"

@@ -43,7 +43,7 @@ class Signals:
             signal.signal(number, before)
 
     def heard(self) -> bool:
-        """Whether a signal has come."""
+        """True if a signal has come."""
         return self.number is not None
 
     @property

@@ -1,4 +1,4 @@
-"""What all consistency corrections share: a kernel corrected by sums over the neighbourhood."""
+"""The base of all consistency corrections: a kernel corrected by sums over the neighbourhood."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all equations of state share: pressure and speed of sound from the density, and the way back."""
+"""The base of all equations of state: pressure and speed of sound from the density, and the way back."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class EquationOfState:
     uses_energy: ClassVar[bool] = False  # else the pressure is a function of the density alone
 
     def pressure(self, density: Scalar, energy: Scalar = None) -> Scalar:
-        """p."""
+        """The pressure p."""
         raise NotImplementedError
 
     def sound_speed(self, density: Scalar, energy: Scalar = None) -> Scalar:
-        """c, with c^2 = dp/drho at constant entropy."""
+        """The speed of sound c, with c^2 = dp/drho at constant entropy."""
         raise NotImplementedError
 
     def density(self, pressure: Scalar, energy: Scalar = None) -> Scalar:

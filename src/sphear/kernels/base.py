@@ -1,4 +1,4 @@
-"""What all kernels share: W(r, h) = sigma_d / h^d w(q), q = r / h, and its derivatives from those of w."""
+"""The base of all kernels: W(r, h) = sigma_d / h^d w(q), q = r / h, and its derivatives from those of w."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ class Kernel:
             raise SphearError(f"the smoothing length h must be positive, not {quoted(self.h)}")
 
     def shape(self, q: Scalar, dimension: int) -> Scalar:
-        """w(q)."""
+        """The shape w(q)."""
         raise NotImplementedError
 
     def slope(self, q: Scalar, dimension: int) -> Scalar:
-        """w'(q) / q, written without the division where w allows it."""
+        """The slope w'(q) / q, written without the division where w allows it."""
         raise NotImplementedError
 
     def curvature(self, q: Scalar, dimension: int) -> Scalar:
-        """w''(q)."""
+        """The curvature w''(q)."""
         raise NotImplementedError
 
     @property
@@ -55,7 +55,7 @@ class Kernel:
         return self.sigma[dimension - 1] / self.h ** (dimension + derivatives)
 
     def value(self, r2: Scalar, dimension: int) -> Scalar:
-        """W at the squared distance r2."""
+        """The kernel W at the squared distance r2."""
         return self._scale(dimension, 0) * self.shape(sqrt(r2) / self.h, dimension)
 
     def gradient_factor(self, r2: Scalar, dimension: int) -> Scalar:
@@ -63,11 +63,11 @@ class Kernel:
         return self._scale(dimension, 2) * self.slope(sqrt(r2) / self.h, dimension)
 
     def second_derivative(self, r2: Scalar, dimension: int) -> Scalar:
-        """d2W/dr2."""
+        """The second derivative d2W/dr2."""
         return self._scale(dimension, 2) * self.curvature(sqrt(r2) / self.h, dimension)
 
     def gradient(self, d: Vector, r2: Scalar) -> Vector:
-        """grad_i W(r_i - r_j)."""
+        """The gradient grad_i W(r_i - r_j) with respect to r_i."""
         return scale(self.gradient_factor(r2, len(d)), d)
 
     def hessian(self, d: Vector, r2: Scalar) -> Matrix:

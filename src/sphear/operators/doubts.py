@@ -1,4 +1,4 @@
-"""What is computed but hardly meant: particles without neighbours, volumes that are not those of the particles."""
+"""Warnings of inputs that are computed but hardly meant: lonely particles, volumes that are not theirs."""
 
 from __future__ import annotations
 

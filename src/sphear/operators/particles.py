@@ -31,7 +31,7 @@ def _as_it_is(term: ViscousTerm) -> ViscousTerm:
 
 
 def needing_neighbours(term: ViscousTerm, correction: Correction) -> str:
-    """What of a term with a correction has to be solved for at each particle, and so needs enough neighbours."""
+    """Parts of a term with a correction that are solved for at each particle, and so need enough neighbours."""
     return f"viscosity {term.name!r}" if term.own_correction else f"correction {correction.name!r}"
 
 
@@ -65,7 +65,7 @@ def too_few_neighbours(
 
 
 def ignores_constants(term: ViscousTerm, correction: Correction, fallback: Fallback | None) -> bool:
-    """Whether a constant that is added to the field changes nothing but the rounding of the result."""
+    """True if a constant that is added to the field changes nothing but the rounding of the result."""
     if fallback == "uncorrected" and correction.name != "none" and not ignores_constants(term, NoCorrection(), None):
         return False
     if not isinstance(term, LaplacianTerm):
@@ -80,10 +80,10 @@ class Particles:
     """Particles whose neighbours are known; made once, operated on many times.
 
     Attributes:
-        positions: (N, d).
+        positions: places of the particles, (N, d), in lengths.
         kernel: with its smoothing length.
         neighbours: the pairs within the kernel's support.
-        volumes: (N,).
+        volumes: of the particles, (N,), in lengths^d.
         precision: "float64" or "float32", of the sums.
         each_pair_once: compute both sides of a pair together where nothing is prepared for either: half the pair list,
             and faster for the costlier terms, such as the radial ones (`benchmarks/`).
@@ -97,7 +97,7 @@ class Particles:
     each_pair_once: bool = False
 
     def __repr__(self) -> str:
-        """How many, and their kernel."""
+        """The number of particles, their dimension, kernel and precision."""
         count, dimension = self.positions.shape
         return f"<Particles: {count} in {dimension}-D, {self.kernel!r}, {self.precision}>"
 
@@ -161,7 +161,7 @@ class Particles:
         correction: Correction,
         fallback: Fallback | None = None,
     ) -> Array:
-        """(1/rho) div tau, (N, d)."""
+        """The viscous acceleration (1/rho) div tau of each particle, (N, d)."""
         # one that is constant asks for no neighbour's
         varies = bool((dynamic_viscosity != dynamic_viscosity[:1]).any())
         adapted = with_varying_viscosity if varies else _as_it_is

@@ -38,7 +38,7 @@ class Outcome:
 
 
 class Preparation:
-    """What an interaction sums up for each particle of a chunk before it is swept for good.
+    """Sums for each particle of a chunk that an interaction needs before its own sweep.
 
     Args:
         interaction: a preparation; `quality` is the first number of its result.

@@ -1,4 +1,4 @@
-"""What a study leaves behind: tables, pictures and files.
+"""Tables, pictures and files of results.
 
 Matplotlib is slow to import, so the pictures are not: take them from `sphear.results.figure` where one is drawn.
 """

@@ -15,11 +15,12 @@ DIFFUSION = 0.1  # delta
 
 
 class WeaklyCompressible(Scheme):
-    """The explicit scheme, weakly compressible or compressible; the defaults are what was found best (docs/flows.md).
+    """The explicit scheme, weakly compressible or compressible (docs/theory/weakly-compressible.md).
 
-    They have second derivatives that are exact for quadratic fields, first ones for linear fields, a density that
-    diffusion keeps smooth, particles that shifting keeps regular. Where a setting that is named does not go with some
-    default, this gives way. The settings of Basa, Quinlan & Lastiwka (2009) are the preset `basa2009`.
+    The defaults are what was found best: second derivatives that are exact for quadratic fields, first ones for linear
+    fields, a density that diffusion keeps smooth, particles that shifting keeps regular. Where a setting that is named
+    does not go with some default, this gives way. The settings of Basa, Quinlan & Lastiwka (2009) are the
+    preset `basa2009`.
 
     Attributes, beside those of all schemes:
         viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.

@@ -1,4 +1,4 @@
-"""How long a run computes before it listens, and how often it saves its state."""
+"""The pace of a run: steps until it listens for interrupts, and seconds until it saves its state."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SHARE = 0.01  # of a run's steps that may be lost, and of its time that saving m
 
 
 class Slices:
-    """How many steps are made at once: as many as take half a second, measured on those before.
+    """The number of steps that are made at once: as many as take half a second, measured on those before.
 
     What is computed does not depend on it.
     """
@@ -28,7 +28,7 @@ class Slices:
 
 
 class Copies:
-    """When a state is copied, that a run which is interrupted in the midst of a step goes back to.
+    """The moments at which a state is copied, for a run that is interrupted in the midst of a step to go back to.
 
     Copying takes a hundredth of the time at most.
     """
@@ -37,7 +37,7 @@ class Copies:
         self.cost, self.last = 0.0, -math.inf
 
     def due(self) -> bool:
-        """Whether it is time."""
+        """True if it is time."""
         return time.monotonic() - self.last >= self.cost / SHARE
 
     def taken(self, began: float) -> None:
@@ -47,7 +47,7 @@ class Copies:
 
 
 class Savings:
-    """When the state is to be saved: every 10 seconds.
+    """The moments at which the state is saved: every 10 seconds.
 
     Where saving takes longer than a hundredth of that, it is less often, but at each hundredth of the run.
 
@@ -62,7 +62,7 @@ class Savings:
         self.cost, self.last, self.steps = 0.0, time.monotonic(), at
 
     def due(self, steps: int) -> bool:
-        """Whether it is time."""
+        """True if it is time."""
         waited = time.monotonic() - self.last
         return waited >= self.every and (waited >= self.cost / SHARE or steps - self.steps >= self.share)
 

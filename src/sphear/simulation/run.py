@@ -143,7 +143,7 @@ class Run:
 
     @property
     def failed(self) -> bool:
-        """Whether the run broke down."""
+        """True if the run broke down."""
         return self.end.startswith("failed")
 
     def _look(self, last: bool, again: bool = False) -> bool:
@@ -200,13 +200,13 @@ class Run:
         rows = (row for observer in self.observers for row in observer.rows if isinstance(row, dict))
         return min((row.get("energy_residual", 0.0) for row in rows), default=0.0)
 
-    def save(self, path: Path) -> None:
+    def save(self, path: str | Path) -> None:
         """Write all that the run needs to go on to a file, an `.npz` of NumPy; the file before is kept beside it.
 
         Raises:
             OSError: it cannot be written.
         """
-        self._save(path, self._now())
+        self._save(Path(path), self._now())
 
     def _save(self, path: Path, kept: Kept) -> None:
         raise NotImplementedError

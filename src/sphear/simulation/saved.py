@@ -1,4 +1,4 @@
-"""What a run needs to go on, in a file, and the one before it: whatever happens, one of them is whole."""
+"""Saved states: the file that a run goes on from, and the one before it; whatever happens, one of them is whole."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FREE = ("until", "max_steps", "threads", "force")  # settings that do not change
 
 
 class About(BaseModel):
-    """What is saved beside the state of the flow.
+    """The record that is saved beside the state of the flow.
 
     Attributes:
         case: what is computed.
@@ -67,7 +67,7 @@ def _write(path: Path, about: About, state: dict[str, Array]) -> None:
 
 
 def earlier(path: Path) -> Path:
-    """Where the state before the one in a file is."""
+    """The path of the state before the one in a file."""
     return path.with_name(f"{path.stem}-before{path.suffix}")
 
 
@@ -88,7 +88,7 @@ def checksum(members: dict[str, Array]) -> str:
 
 
 def read(path: Path) -> tuple[About, dict[str, Array]]:
-    """What was written.
+    """Read a state and its record.
 
     Raises:
         SphearError: the file cannot be read, or is damaged.

@@ -64,8 +64,10 @@ class Simulation(Run):
 
     Attributes:
         time, steps: reached.
-        positions, velocities: (N, d), of the particles now.
-        density, pressure: (N,).
+        positions: places of the particles now, (N, d), in lengths.
+        velocities: of the particles now, (N, d), in lengths over times.
+        density: of the particles now, (N,), in masses over volumes.
+        pressure: at the particles now, (N,), in forces over areas.
         end: "time", "steps", a stop rule's word, or "failed: ..."; empty before a run.
 
     Raises:
@@ -112,32 +114,32 @@ class Simulation(Run):
 
     @property
     def time(self) -> float:
-        """The time reached."""
+        """The time reached, in the unit of time of velocities and viscosity."""
         return self.flow.time
 
     @property
     def steps(self) -> int:
-        """The steps made."""
+        """The number of steps made since the start."""
         return self.flow.steps
 
     @property
     def positions(self) -> Array:
-        """(N, d), of the particles, a length each."""
+        """The places of the particles now, (N, d), in lengths; within the box along periodic axes."""
         return self.flow.positions
 
     @property
     def velocities(self) -> Array:
-        """(N, d), of the particles, a length over a time each."""
+        """The velocities of the particles now, (N, d), in lengths over times, in the order of `positions`."""
         return self.flow.velocities
 
     @property
     def density(self) -> Array:
-        """(N,), of the particles, a mass over a volume each."""
+        """The densities of the particles now, (N,), in masses over volumes; constant in incompressible flow."""
         return self.flow.density
 
     @property
     def pressure(self) -> Array:
-        """(N,), at the particles, a force over an area each."""
+        """The pressures at the particles now, (N,), in forces over areas; up to a constant between walls."""
         return self.flow.pressure
 
     @property
@@ -227,7 +229,7 @@ class Simulation(Run):
         return self
 
     def _described(self) -> dict[str, Any]:
-        """What must be equal for a saved state to be gone on with."""
+        """The parts that must be equal for a saved state to be gone on with."""
         return {
             "region": repr(self.region),
             "fluid": repr(self.fluid),
@@ -239,7 +241,7 @@ class Simulation(Run):
         }
 
     def __repr__(self) -> str:
-        """How many particles, and where they stand."""
+        """The number of particles, the time and steps reached, and the end."""
         end = f", end: {self.end}" if self.end else ""
         return f"<Simulation of {self.flow.count} particles: t = {self.time:.6g}, {self.steps} steps{end}>"
 

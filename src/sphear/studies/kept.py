@@ -53,7 +53,7 @@ def as_text(data: dict[str, Any]) -> str:
 
 
 def runs_folder(paper: str) -> Path:
-    """Where the runs of a paper's studies are kept: in `$SPHEAR_RUNS_DIR`, else in the user's cache folder.
+    """The folder of the runs of a paper's studies: `$SPHEAR_RUNS_DIR`, else in the user's cache folder.
 
     Raises:
         SphearError: there cannot be such a folder.

@@ -1,4 +1,4 @@
-"""What a study gives: the numbers, what the paper claims of them and what was found."""
+"""The result of a study: the numbers, what the paper claims of them and what was found."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class StudyResult:
     other_readings: list[dict[str, Any]] = field(default_factory=list)
 
     def as_dict(self, study: str, item: str) -> dict[str, Any]:
-        """What `--json` prints."""
+        """The object that `--json` prints."""
         result: dict[str, Any] = {"study": study, "item": item, "versions": versions(), "rows": self.rows}
         if self.other_readings:
             result["other_readings"] = self.other_readings

@@ -1,4 +1,4 @@
-"""How long runs are, and what of their settings does not go together, found without starting each one's flow."""
+"""The cost of runs, and settings that do not go together, found without starting each one's flow."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SCALES = ("reynolds", "until", "max_steps", "time_step", "force", "threads", "se
 
 
 class _Built(NamedTuple):
-    """What is kept of a flow that was started."""
+    """The numbers that are kept of a flow that was started."""
 
     particles: int
     kernel: Kernel

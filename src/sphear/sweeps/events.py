@@ -1,4 +1,4 @@
-"""What those who compute runs tell of them, as it happens."""
+"""Events that whoever computes runs tells of them, as they happen."""
 
 from __future__ import annotations
 

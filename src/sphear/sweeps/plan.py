@@ -1,4 +1,4 @@
-"""What a sweep computes: runs, each a case with its settings, all checked before the first one starts."""
+"""The plan of a sweep: runs, each a case with its settings, all checked before the first one starts."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Run:
 
     @cached_property
     def key(self) -> str:
-        """What the run is stored under: a few settings to read, and a hash of all that changes its result.
+        """The name that the run is stored under: a few settings to read, and a hash of all that changes its result.
 
         Settings at their general default are left out of it, so that a new setting leaves old results valid.
         """

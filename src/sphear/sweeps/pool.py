@@ -142,7 +142,7 @@ class _Feeder(Thread):
                 return
 
     def _death(self) -> str:
-        """Why the worker is no more."""
+        """The reason why a worker is no more."""
         process = self.process
         self._close()
         code = None if process is None else process.exitcode

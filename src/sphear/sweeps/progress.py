@@ -1,4 +1,4 @@
-"""How far a sweep has come, and how long it will still take."""
+"""The progress of a sweep, and the time that is left."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sphear.sweeps.result import SweepResult
 
 @dataclass(frozen=True)
 class SweepProgress:
-    """Where a sweep stands.
+    """The standing of a sweep.
 
     Attributes:
         runs: all of them.
@@ -83,7 +83,7 @@ class Tracker:
             self._ended.append((cost, self.clock() - began))
 
     def state(self) -> SweepProgress:
-        """Where the sweep stands now."""
+        """The standing of the sweep now."""
         lost = sum(result.lost for result in self._results)
         return SweepProgress(
             runs=self._runs,
@@ -96,7 +96,7 @@ class Tracker:
         )
 
     def _left(self) -> float | None:
-        """What the other runs take at the speed of those that have ended, shared among the workers."""
+        """The time of the other runs at the speed of those that have ended, shared among the workers."""
         if not self._ended:
             return None
         pace = sum(seconds for _, seconds in self._ended) / sum(cost for cost, _ in self._ended)

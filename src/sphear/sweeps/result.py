@@ -1,4 +1,4 @@
-"""What is kept of a run: its end, its metrics and a history that is short enough to keep."""
+"""The result of a run: its end, its metrics and a history that is short enough to keep."""
 
 from __future__ import annotations
 
@@ -45,17 +45,17 @@ class SweepResult:
 
     @property
     def failed(self) -> bool:
-        """Whether the flow broke down."""
+        """True if the flow broke down."""
         return self.end.startswith("failed")
 
     @property
     def lost(self) -> bool:
-        """Whether there is no result, because a worker was killed or something unexpected happened."""
+        """True if there is no result, because a worker was killed or something unexpected happened."""
         return self.end.startswith("lost")
 
     @property
     def attempts(self) -> int:
-        """How often a run that is lost ended with an exception."""
+        """The number of times that a run that is lost ended with an exception."""
         said = self.performance.get("attempts") if self.lost else 0
         return said if isinstance(said, int) else 0
 
@@ -86,7 +86,7 @@ def lost(run: Run, reason: str, attempts: int = 0) -> SweepResult:
 
 
 def record(run: FlowRun) -> dict[str, Any]:
-    """What is kept of a run that has ended."""
+    """The result to keep of a run that has ended."""
     rows, last = run.history, len(run.history) - 1
     kept = sorted({round(number * last / (HISTORY - 1)) for number in range(HISTORY)})
     whole: dict[str, Any] = finite({**run.as_dict(), "end": run.end, "history": [rows[number] for number in kept]})

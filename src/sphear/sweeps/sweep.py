@@ -23,7 +23,7 @@ ATTEMPTS = 2  # at a run that ends with an exception
 
 
 class SweepWarning(UserWarning):
-    """What happens beside the runs of a sweep, in a sentence."""
+    """An event beside the runs of a sweep, in a sentence."""
 
 
 def warn(sentence: str) -> None:

@@ -1,4 +1,4 @@
-"""What all viscous terms share: how they act on velocities and, where they can, on scalar fields."""
+"""The base of all viscous terms: how they act on velocities and, where they can, on scalar fields."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class ViscousTerm:
 
     @property
     def homogeneous(self) -> bool:
-        """Whether the term is linear in velocity and in viscosity and has no constant with a unit: units cancel."""
+        """True if the term is linear in velocity and in viscosity and has no constant with a unit: units cancel."""
         return True
 
     def preparation(self, kernel: Kernel, correction: Correction) -> Any:
@@ -57,11 +57,11 @@ class ViscousTerm:
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar
     ) -> Vector:
-        """What the pair adds to du/dt of `own`."""
+        """The pair's part of du/dt of `own`."""
         raise NotImplementedError
 
     def own_acceleration(self, kernel: Kernel, correction: Correction, own: Any) -> Vector | None:
-        """What the particle adds to its own du/dt; None if nothing."""
+        """The particle's part of its own du/dt; None if nothing."""
         return None
 
     def acceleration_stages(self, kernel: Kernel, correction: Correction) -> tuple[Interaction, ...]:
@@ -74,15 +74,15 @@ class LaplacianTerm(ViscousTerm):
     """A viscous term that is the Laplacian of each component: lap f_i = sum_j V_j w_ij (f_j - f_i)."""
 
     def weight(self, kernel: Kernel, correction: Correction, own: Any, d: Vector, r2: Scalar) -> Scalar:
-        """w_ij."""
+        """The weight w_ij of lap f_i = sum_j V_j w_ij (f_j - f_i)."""
         raise NotImplementedError
 
     def of_differences(self, correction: Correction) -> bool:
-        """Whether the sum is over f_j - f_i; else over f_j, with the particle itself (`weight_at_zero`)."""
+        """True if the sum is over f_j - f_i; else over f_j, with the particle itself (`weight_at_zero`)."""
         return True
 
     def weight_at_zero(self, kernel: Kernel, correction: Correction, own: Any) -> Scalar:
-        """w_ii, for sums over f_j."""
+        """The weight w_ii of the particle itself, for sums over f_j."""
         raise NotImplementedError
 
     def mean_viscosity(self, own: Any, other: Any) -> Scalar:
@@ -108,7 +108,7 @@ def regularised(r2: Scalar, eta: float | None, kernel: Kernel) -> Scalar:
 
 
 def uncorrected(term: ViscousTerm) -> tuple[ViscousTerm, Correction]:
-    """What stands in for a term where its correction cannot be computed: itself without, or Morris's."""
+    """The stand-in for a term where its correction cannot be computed: itself without, or Morris's."""
     from sphear.viscosity.morris import Morris
 
     return (Morris() if term.own_correction else term), NoCorrection()

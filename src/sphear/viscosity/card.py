@@ -22,14 +22,14 @@ _UNSTATED = "not stated"
 
 @lru_cache
 def measured() -> dict[str, Any]:
-    """What `validation/measure_cards.py` has measured, by the term's name."""
+    """Properties that `validation/measure_cards.py` has measured, by the term's name."""
     facts: dict[str, Any] = json.loads((Path(__file__).parent / "measured.json").read_text(encoding="utf-8"))
     return facts
 
 
 @dataclass(frozen=True)
 class Card:
-    """What is known of a viscous term. Properties without corrections and with equal volumes, in 2-D."""
+    """The formula, source and properties of a viscous term, without corrections and with equal volumes, in 2-D."""
 
     name: str
     setting: str
@@ -93,7 +93,7 @@ class Card:
 
 
 def _where_it_varies(term: ViscousTerm) -> str:
-    """What a term's limit is where the viscosity varies."""
+    """The limit of a term where the viscosity varies."""
     from sphear.viscosity.varying import MeanViscosity, takes_mean
 
     if term.varies_viscosity:

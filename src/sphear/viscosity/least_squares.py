@@ -19,7 +19,7 @@ DEGREES = (2, 3, 4)
 
 
 class Fit(NamedTuple):
-    """How near to singular a particle's fit is, and its Laplacian as a combination of the basis monomials."""
+    """The fit of a particle: its distance from singular, and its Laplacian as a combination of the basis monomials."""
 
     quality: Scalar
     coefficients: Vector
@@ -49,7 +49,7 @@ class LeastSquaresPreparation:
         return Fit(0.0, (0.0,) * len(exponents(dimension, 1, self.degree)))
 
     def normal_equations(self, dimension: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-        """Which moment each entry of M is, (n, n), and the Laplacian of each basis monomial, (n,)."""
+        """The moment that each entry of M is, (n, n), and the Laplacian of each basis monomial, (n,)."""
         import numpy as np
 
         basis = exponents(dimension, 1, self.degree)

@@ -43,7 +43,7 @@ class MeanViscosity(LaplacianTerm):
 
 
 def takes_mean(term: ViscousTerm) -> bool:
-    """Whether a term without a rule for a viscosity that varies is the weights of a Laplacian, which give it one."""
+    """True if a term without a rule for a viscosity that varies is the weights of a Laplacian, which give it one."""
     return (
         isinstance(term, LaplacianTerm)
         and type(term).acceleration is LaplacianTerm.acceleration

@@ -1,4 +1,4 @@
-"""What all flows share: what a case is made of."""
+"""The base of all cases: the parts that a case is made of."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def steady_from(settings: Settings) -> float:
 
 
 def steady(settings: Settings, time: float) -> bool:
-    """Whether the flow counts as steady, within rounding of the time."""
+    """True if the flow counts as steady, within rounding of the time."""
     return time >= steady_from(settings) * (1 - EQUAL)
 
 
@@ -101,7 +101,7 @@ def missing(time: float, known: Sequence[references.CavityFlow], from_when: floa
 
 
 def deviations(known: references.CavityFlow | None, lines: Lines) -> dict[str, float]:
-    """What `summary` says of profiles beside a reference, whose time is inf where it is steady."""
+    """Deviations of profiles from a reference, for `summary`; its time is inf where it is steady."""
     found = {"u_min": float(lines["u"][1].min())} if len(lines["u"][1]) else {}  # a cylinder may fill the line
     if known is None:
         return found

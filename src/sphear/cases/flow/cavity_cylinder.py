@@ -28,9 +28,9 @@ class CylinderSettings(IncompressibleSettings):
 
     Attributes:
         diameter: of the cylinder, over the cavity's side.
-        centre_x: of the cylinder.
-        centre_y: of the cylinder.
-        spin: how fast it turns, counter-clockwise, in radians a time unit.
+        centre_x: of the cylinder, over the cavity's side, from the left wall.
+        centre_y: of the cylinder, over the cavity's side, from the lower wall.
+        spin: angular velocity of the cylinder, counter-clockwise, in radians a time unit.
     """
 
     diameter: float = Field(default=0.5, gt=0, lt=1)

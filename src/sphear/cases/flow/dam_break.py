@@ -132,12 +132,12 @@ class DamBreak(FlowCase):
         }
 
     def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
-        """Where the front meets the opposite wall."""
+        """The end of a run whose front meets the opposite wall."""
         assert isinstance(settings, DamBreakSettings)
         return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
 
     def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
-        """How far the front is ahead of where the experiment has it, in column widths, where that is known."""
+        """The front less that of the experiment, in column widths, at times of which it is known."""
         measured, time = self.known(settings), flow.time * speed(settings) / WIDTH
         if measured is None:
             return {}

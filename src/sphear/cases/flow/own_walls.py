@@ -79,6 +79,6 @@ def around(problem: Problem, solid: Shape) -> Problem:
 
 
 def _touched(problem: Problem, fluid: Shape | None, solid: Shape) -> bool:
-    """Whether a solid is anywhere that fluid can be."""
+    """True if a solid is anywhere that fluid can be."""
     places = problem.positions if fluid is None else fluid_lattice(fluid, problem.spacing, problem.window)
     return bool((solid.distance(places) > -problem.spacing).any())

@@ -67,7 +67,7 @@ class FlowRun(Run):
         super().__init__(flow, Watch(problem), (CaseHistory(),), unit, case.time_name)
 
     def __repr__(self) -> str:
-        """What is computed, how, and where it stands."""
+        """The case, its settings in short, and the time reached."""
         settings, viscosity = self.settings, self.flow.resolved()["viscosity"]
         where = f"{self.case.time_name} = {self.flow.time / self.unit:.4g}, step {self.flow.steps}"
         return (
@@ -77,7 +77,7 @@ class FlowRun(Run):
 
     @property
     def history(self) -> list[dict[str, float]]:
-        """A row for each output."""
+        """Rows of numbers by name, one for each output: time in the unit of the case, steps and the metrics."""
         return self.observers[0].rows
 
     @history.setter
@@ -86,7 +86,7 @@ class FlowRun(Run):
 
     @property
     def planned(self) -> float:
-        """When the run is expected to end, in the time unit of the case; infinite if nothing says."""
+        """The time at which the run is expected to end, in the unit of the case; infinite if nothing says."""
         horizon = self.case.horizon if self.settings.until is None else self.settings.until
         return np.inf if horizon is None else horizon
 
@@ -98,7 +98,7 @@ class FlowRun(Run):
     def run(
         self,
         progress: Callable[[str], None] = quietly,
-        keep: Path | None = None,
+        keep: str | Path | None = None,
         *,
         stopped: Callable[[], bool] = lambda: False,
         warn: Callable[[str], None] = aloud,
@@ -124,16 +124,17 @@ class FlowRun(Run):
         if self._recorded and not self.end:  # gone on with: it may have been interrupted at its last output
             self._looked[0] = self.flow.steps
             self.end = self.verdict(self.history[-1])
-        self._to_end(self.until, self.settings.max_steps, progress, keep, stopped, warn)
+        file = None if keep is None else Path(keep)
+        self._to_end(self.until, self.settings.max_steps, progress, file, stopped, warn)
         return self
 
     @property
     def _recorded(self) -> bool:
-        """Whether the last output is of now."""
+        """True if the last output is of now."""
         return bool(self.history) and self.history[-1]["steps"] == self.flow.steps
 
     def verdict(self, metrics: dict[str, float]) -> str:
-        """How the run has ended, where it stands; empty if it goes on."""
+        """The end of the run at the time reached; empty if it goes on."""
         if said := self.case.ended(self.settings, self.flow, metrics):
             return said
         if self.flow.time >= self.until * (1 - ROUND_OFF):
@@ -152,12 +153,13 @@ class FlowRun(Run):
         write(path, about, state)
         self.saved = float(state["clock"][0]) / self.unit
 
-    def restore(self, path: Path) -> None:
+    def restore(self, path: str | Path) -> None:
         """Go on from a file that `save` wrote.
 
         Raises:
             SphearError: it cannot be read, or is of another run.
         """
+        path = Path(path)
         about, state = read(path)
         reached = float(state["clock"][0]) / self.unit
         step = 1.001 * self.flow.time_step / self.unit  # a run ends within one of its time

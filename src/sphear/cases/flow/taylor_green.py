@@ -27,7 +27,7 @@ def reference(settings: Settings) -> TaylorGreen:
 
 
 def gone(settings: Settings, flow: FlowInTime) -> bool:
-    """Whether the exact flow has decayed so far that nothing is relative to it."""
+    """True if the exact flow has decayed so far that nothing is relative to it."""
     return reference(settings).decay(flow.time) < LEAST_DECAY
 
 

@@ -37,7 +37,7 @@ class Curve:
 
     @property
     def table(self) -> bool:
-        """Whether nothing is known between its stations, as of those that were published."""
+        """True if nothing is known between its stations, as of published tables."""
         return len(self.stations) < FEW
 
     def at(self, stations: ArrayLike, kind: Literal["cubic", "linear"] = "cubic") -> NDArray[np.float64]:

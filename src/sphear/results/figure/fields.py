@@ -221,7 +221,7 @@ def _solid(ax: Axes, cylinder: tuple[float, float, float] | None) -> None:
 
 
 def _setup(ax: Axes, cylinder: tuple[float, float, float]) -> None:
-    """What is set up: walls, the lid and its speed, the cylinder and its diameter."""
+    """A sketch of the set-up: walls, the lid and its speed, the cylinder and its diameter."""
     x, y, radius = cylinder
     ax.set(title="set-up", aspect="equal", xlim=(-0.13, 1.13), ylim=(-0.13, 1.2))
     ax.set_axis_off()

@@ -81,7 +81,7 @@ def flow_panels(
 
 
 def _reference(time: float | None, named: str) -> str:
-    """What a reference is called, whose time may be another than that of the flow."""
+    """The label of a reference, whose time may be another than that of the flow."""
     if time is None:
         return "reference"
     return "reference, steady" if math.isinf(time) else f"reference, {named} = {time:g}"
@@ -106,7 +106,7 @@ def draw_particles(ax: Axes, places: NDArray[np.float64], velocities: NDArray[np
 
 
 def draw_solid(ax: Axes, distance: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> None:
-    """What is solid within the axes, and a little around."""
+    """Draw the solid within the axes, and a little around."""
     ax.margins(0.02)
     (left, right), (lower, upper) = ax.get_xlim(), ax.get_ylim()
     x, y = np.meshgrid(np.linspace(left, right, FINE), np.linspace(lower, upper, FINE))

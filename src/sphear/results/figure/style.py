@@ -1,4 +1,4 @@
-"""What all figures share: settings, the look of each viscous term, the grid of panels, how a figure is saved."""
+"""The style of all figures: settings, the look of each viscous term, the grid of panels, how a figure is saved."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ styled = matplotlib.rc_context(
 
 
 class Look(NamedTuple):
-    """How a viscous term is drawn."""
+    """The colour and marks of a viscous term."""
 
     colour: str
     marker: str

@@ -15,9 +15,9 @@ LEAST_STEPS = 100  # of a run by implicit viscous steps
 
 
 class Incompressible(Scheme):
-    """The projection scheme for incompressible flow; the defaults are what was found best (docs/incompressible.md).
+    """The projection scheme for incompressible flow (docs/theory/incompressible.md).
 
-    Those of Zheng, Ma & Shao (2018) are the preset `zheng2018`.
+    The defaults are what was found best. Those of Zheng, Ma & Shao (2018) are the preset `zheng2018`.
 
     Attributes, beside those of all schemes:
         viscosity: name of a viscous term, or an object such as `Cleary(xi=2)`.

@@ -1,4 +1,4 @@
-"""What every observer is: rows that grow at even intervals."""
+"""The base of all observers: rows that grow at even intervals."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ROUNDING = 1e-6  # of a time step, by which a time may be missed that is reached
 
 
 def whole(value: object) -> bool:
-    """Whether a value is a positive whole number."""
+    """True if a value is a positive whole number."""
     return isinstance(value, int) and not isinstance(value, bool) and value > 0
 
 
@@ -62,7 +62,7 @@ class Observer:
         """Close a run that has come to its end, or to one of its ends: called after the last look."""
 
     def look(self, run: Run) -> Any:
-        """What is kept of a run as it stands; None keeps nothing."""
+        """The row that is kept of a run as it stands; None keeps nothing."""
         raise NotImplementedError
 
     def watch(self, run: Run) -> None:
@@ -71,7 +71,7 @@ class Observer:
             self.rows.append(row)
 
     def until_next(self, run: Run) -> float:
-        """How many steps from here the next look is; infinite where only the end is looked at."""
+        """The number of steps to the next look; infinite where only the end is looked at."""
         flow = run.flow
         if self.steps is not None:
             return self.steps - flow.steps % self.steps
@@ -82,7 +82,7 @@ class Observer:
         return max(1.0, math.ceil(((past + 1) * self.every - flow.time) / step - ROUNDING))
 
     def due(self, run: Run) -> bool:
-        """Whether a look is due at the step that was just made."""
+        """True if a look is due at the step that was just made."""
         flow = run.flow
         if self.steps is not None:
             return flow.steps % self.steps == 0

@@ -41,7 +41,7 @@ class Call(Observer):
         super().__post_init__()
 
     def look(self, run: Run) -> Any:
-        """What the function returns."""
+        """The value that the function returns."""
         assert self.function is not None
         return self.function(run)
 

@@ -54,10 +54,10 @@ class Probe(Observer):
 
     @property
     def times(self) -> Array:
-        """(looks,)."""
+        """The times of the looks, (looks,)."""
         return np.array([time for time, _ in self.rows])
 
     @property
     def velocities(self) -> Array:
-        """(looks, 2)."""
+        """The velocities at the point, (looks, 2), in lengths over times."""
         return np.array([velocity for _, velocity in self.rows]).reshape(-1, 2)

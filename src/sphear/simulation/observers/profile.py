@@ -36,8 +36,8 @@ class Profile(Observer):
         steps: or the interval in steps.
 
     Attributes:
-        at: (stations,), coordinates along the line.
-        rows: of every look, (time, values (stations,)).
+        at: coordinates along the line of the stations that lie in the fluid, (stations,), in lengths.
+        rows: of every look, (time, values (stations,)), the values in lengths over times.
 
     Raises:
         SphearError: the line is not one, or there is no such component.
@@ -107,6 +107,6 @@ class Profile(Observer):
 
     @property
     def values(self) -> Array:
-        """(stations,), the component at the last look."""
+        """The velocity component at the last look, (stations,), in lengths over times; empty before it."""
         values: Array = self.rows[-1][1] if self.rows else np.empty(0)
         return values

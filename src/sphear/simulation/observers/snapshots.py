@@ -20,8 +20,10 @@ class Snapshot(NamedTuple):
 
     Attributes:
         time: of the flow.
-        positions, velocities: (N, d).
-        density, pressure: (N,).
+        positions: places of the particles, (N, d), in lengths.
+        velocities: (N, d), in lengths over times.
+        density: (N,), in masses over volumes.
+        pressure: at the particles, (N,), in forces over areas.
     """
 
     time: float

@@ -26,7 +26,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
 
 
 def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
-    """What is kept: how each run ended, its energy over time and its profiles at the end."""
+    """Entries to keep: the end of each run, its energy over time and its profiles at the end."""
     found = []
     for result in results:
         row: Row = {key: result.settings[key] for key in SWEPT}
@@ -65,7 +65,7 @@ def reynolds_numbers(rows: Sequence[Row]) -> list[float]:
 
 
 def failed(row: Row) -> bool:
-    """Whether the run broke down."""
+    """True if the run broke down."""
     return str(row["end"]).startswith("failed")
 
 

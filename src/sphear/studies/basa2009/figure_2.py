@@ -88,7 +88,7 @@ def _growth(times: Any, errors: Any) -> float | None:
 
 
 def present(data: dict[str, Any]) -> StudyResult:
-    """When each run fails, its errors and its profiles."""
+    """The time at which each run fails, its errors and its profiles."""
     rows = []
     for run in data["runs"]:
         at = np.array(run["times"])

@@ -44,7 +44,7 @@ def widths(reynolds: float) -> float:
 
 
 def present(data: dict[str, Any]) -> StudyResult:
-    """When each run fails, in both units of time, and how fast its drift grows."""
+    """The time at which each run fails, in both units, and the growth rate of its drift."""
     steady = POISEUILLE.horizon or np.inf
     rows = []
     for run in data["runs"]:

@@ -47,7 +47,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
 
 
 def vortex_centre(positions: Array, velocities: Array) -> tuple[float, float]:
-    """Where the fluid stands still in the primary vortex; NaN where there is none to be found.
+    """The place where fluid stands still in the primary vortex; NaN if there is none.
 
     The particle around which its 20 nearest turn best, by the mean sine of the angle between the way to them and their
     velocity (Graftieaux, Michard & Grosjean 2001, Meas. Sci. Technol. 12:1422), then the zero of the linear field that

@@ -80,7 +80,7 @@ def spike(row: Row) -> float:
 
 
 def judged(rows: list[Row]) -> tuple[dict[str, bool], Agreement]:
-    """Whether each part of the claim holds that the runs can tell, and the claim as a whole."""
+    """Verdicts on each part of the claim that the runs can tell, and on the claim as a whole."""
     finished = [row for row in select(rows, reynolds=1000.0) if not failed(row)]
     corrected = [row for row in rows if row["correction"] != "none"]
     closer, closest, spikes = [], [], []

@@ -1,4 +1,4 @@
-"""What is kept of the channels of figure 5, and what is read off it."""
+"""The kept runs of the channels of figure 5, and the numbers that are read off them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Row = dict[str, Any]
 
 
 def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
-    """What is kept: how each run ended, and the errors over time of those whose error is drawn."""
+    """Entries to keep: the end of each run, and the errors over time of those whose error is drawn."""
     found = []
     for result in results:
         row: Row = {key: result.settings[key] for key in SWEPT}
@@ -49,7 +49,7 @@ def _short(value: float | None) -> float | None:
 
 
 def outcome(row: Row) -> str:
-    """How a run ended: "steady", "failed" or "steps"."""
+    """The end of a run: "steady", "failed" or "steps"."""
     return str(row["end"]).partition(":")[0]
 
 

@@ -113,7 +113,7 @@ class Study:
         return {each: result for each, result in found.items() if result is not None}
 
     def _stale(self, run: Run) -> bool:
-        """Whether the result of a run was computed when some setting had another default."""
+        """True if the result of a run was computed when some setting had another default."""
         result = store(PAPER).get(run)
         if result is None:
             return False
@@ -123,7 +123,7 @@ class Study:
 
 
 def _same(kept: Any, wanted: Any) -> bool:
-    """Whether a resolved setting is the one asked for; one that nothing was asked of, or that is new, is."""
+    """True if a resolved setting is the one asked for; one that nothing was asked of, or that is new, is."""
     if isinstance(kept, float) and isinstance(wanted, float):
         return math.isclose(kept, wanted, rel_tol=1e-9)
     return kept is None or wanted is None or bool(kept == wanted)

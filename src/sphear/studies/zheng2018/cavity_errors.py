@@ -39,7 +39,7 @@ MEASURES = {
 
 
 def limit(case: str) -> float:
-    """What the paper's Err tends to when a method converges: that of the time-accurate flow."""
+    """The limit of the paper's Err for a method that converges: that of the time-accurate flow."""
     flow = reference(case, REYNOLDS, UNTIL)
     assert flow is not None
     return abs(least(flow.u) - papers_u_min(case))
@@ -63,7 +63,7 @@ def errors(data: Data, claim: str, number: int) -> StudyResult:
 
 
 def falling(points: Sequence[tuple[int, float]]) -> bool:
-    """Whether errors fall from each size to the next."""
+    """True if errors fall from each size to the next."""
     return all(finer < coarser for (_, coarser), (_, finer) in pairwise(points))
 
 

@@ -141,7 +141,7 @@ Place = tuple[float, float, float, float]
 
 
 def _windows(name: str, cylinder: bool) -> tuple[tuple[tuple[float, float], Place], ...]:
-    """Which parts are enlarged, around the extremes, and where there is room for that."""
+    """The parts that are enlarged, around the extremes, and the places with room for that."""
     if cylinder and name == "u":
         return (((0.06, 0.2), (0.34, 0.42, 0.36, 0.5)),)
     if cylinder:

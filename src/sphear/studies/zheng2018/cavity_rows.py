@@ -1,4 +1,4 @@
-"""What is kept of each cavity run, and how far it is from the references at the same time."""
+"""Rows to keep of each cavity run, with its deviations from the references at the same time."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ DERIVED = ("time_step", "alpha", "h_over_dx", "kinematic_viscosity")
 
 
 def data_of(case: str, results: Mapping[Wanted, SweepResult], quick: bool = False) -> dict[str, Any]:
-    """What is kept of runs: what they have in common, what was to be computed, and a row for each."""
+    """The data to keep of runs: what they have in common, what was to be computed, and a row for each."""
     return {
         "case": case,
         "until": QUICK_UNTIL if quick else UNTIL,
@@ -66,12 +66,12 @@ def merged(case: str, old: dict[str, Any] | None, new: dict[str, Any]) -> dict[s
 
 
 def identity(row: Mapping[str, Any]) -> tuple[Any, ...]:
-    """What tells a run from others of its case."""
+    """The settings that tell a run from others of its case."""
     return tuple(row[name] for name in ("preset", "reynolds", "resolution", "viscosity", "until"))
 
 
 def row_of(each: Wanted, result: SweepResult) -> Row:
-    """What is kept of a run."""
+    """The row to keep of a run."""
     last, history = result.metrics, result.history
     usual = _usual(each.case)
     row: Row = {
@@ -110,7 +110,7 @@ def reference(case: str, reynolds: float, time: float) -> CavityFlow | None:
 
 
 def papers_reference(case: str) -> CavityFlow:
-    """What the paper's errors are from, at Re = 1000: Ghia's table, or OpenFOAM around the cylinder.
+    """The reference of the paper's errors at Re = 1000: Ghia's table, or OpenFOAM around the cylinder.
 
     Of OpenFOAM the finer mesh as it is, since the paper has nothing extrapolated.
     """
@@ -187,5 +187,5 @@ def select(rows: Sequence[Row], **values: Any) -> list[Row]:
 
 
 def failed(row: Row) -> bool:
-    """Whether the run broke down."""
+    """True if the run broke down."""
     return str(row["end"]).startswith("failed")

@@ -1,4 +1,4 @@
-"""What figures 7 to 14 share: which runs there are, in words and in tables, and what they are compared with."""
+"""Common parts of figures 7 to 14: the runs that there are, in words and in tables, and their references."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def compared_size(data: Data) -> int | None:
 
 
 def lacking(data: Data) -> str:
-    """What was not computed of the runs at Re = 1000, and what failed; empty if nothing."""
+    """The runs at Re = 1000 that were not computed, and those that failed; empty if none."""
     rows, said = main_rows(data), []
     absent = {size: [term for term in data["terms"] if one(rows, term, size) is None] for size in data["sizes"]}
     whole = [str(size) for size, terms in absent.items() if len(terms) == len(data["terms"])]
@@ -64,7 +64,7 @@ def lacking(data: Data) -> str:
 
 
 def own_settings(data: Data) -> str:
-    """How the runs with the paper's own settings ended, and with shifting added; empty if none was computed."""
+    """The ends of runs with the paper's own settings, and with shifting added; empty if none was computed."""
     parts = []
     if rows := select(data["runs"], preset=PAPER):
         parts.append(f"with the paper's own settings{_sizes(rows)} {_failures(rows)}")
@@ -83,7 +83,7 @@ def _sizes(rows: Sequence[Row]) -> str:
 
 
 def _failures(rows: Sequence[Row]) -> str:
-    """How many failed, and when."""
+    """The number of runs that failed, and the times."""
     times = [row["time"] for row in rows if failed(row)]
     if not times:
         return f"none of {len(rows)} runs failed"
@@ -92,13 +92,13 @@ def _failures(rows: Sequence[Row]) -> str:
 
 
 def complete(data: Data) -> bool:
-    """Whether the paper's four terms reached their time at all sizes of the paper's figures."""
+    """True if the paper's four terms reached their time at all sizes of the paper's figures."""
     rows = ended(main_rows(data))
     return data["until"] == 40.0 and all(one(rows, term, size) for term in FOUR for size in data["sizes"])
 
 
 def capped(verdict: Agreement, data: Data) -> Agreement:
-    """What is only partly known is only partly confirmed."""
+    """A verdict, partly confirmed at most where not all is known."""
     return "partly" if verdict == "yes" and not complete(data) else verdict
 
 
@@ -118,7 +118,7 @@ def known_flow(data: Data) -> CavityFlow | None:
 
 
 def paper_name(case: str) -> str:
-    """What the paper's errors are from."""
+    """The name of the reference of the paper's errors."""
     return "OpenFOAM" if case == "cavity-cylinder" else "Ghia"
 
 
@@ -150,7 +150,7 @@ def field_of(row: Row | None, case: str) -> Field | None:
 
 
 def score_table(data: Data) -> Table:
-    """How each run ended, and how far from the references."""
+    """The end of each run, and its deviations from the references."""
     label = {name: paper for paper, name in LABELS.items()}
     lines = [
         {

@@ -76,7 +76,7 @@ def _vortex(data: Data, row: Row) -> tuple[float | None, float | None]:
 
 
 def _growth(row: Row) -> float | None:
-    """How much the energy grew since t = 30, of itself at the end; None of a run that ended before."""
+    """The growth of the energy since t = 30, over that at the end; None of a run that ended before."""
     times, energies = (np.array(column, float) for column in zip(*row["energy"], strict=True))
     if failed(row) or times[-1] <= BEFORE:
         return None
@@ -105,7 +105,7 @@ def _said(data: Data, size: int, row: Row | None) -> str:
 
 
 def _steadiness(data: Data) -> tuple[str, bool]:
-    """Whether the reference is steady at the end of the runs, and how that is said."""
+    """True if the reference is steady at the end of the runs, and a sentence on it."""
     flow = known_flow(data)
     if flow is None or flow.energy is None:
         return "", False

@@ -1,4 +1,4 @@
-"""Figures 3 and 5: a table of errors as curves, the paper's reading of the error beside the honest one."""
+"""Figures 3 and 5: a table of errors as curves, the paper's reading of the error beside the L1-relative one."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def settings(**changes: Any) -> PatchTest:
 
 
 def compared(test: PatchTest, published: dict[str, tuple[float, ...]], progress: Progress) -> list[dict[str, Any]]:
-    """Rows of a table of errors: published beside computed, and the honest L1-relative error."""
+    """Rows of a table of errors: published beside computed, and the L1-relative error."""
     return [
         {
             "particles": row["particles"],
@@ -53,7 +53,7 @@ def error_table(title: str, rows: list[dict[str, Any]]) -> Table:
             Column("published", "Err published", ".2e"),
             Column("computed", "Err computed", ".2e"),
             Column("difference", "difference %", "+.1f"),
-            Column("l1_relative", "honest L1-relative error", ".2e"),
+            Column("l1_relative", "L1-relative error", ".2e"),
             Column("order", "its order", "+.2f"),
         ),
         [

@@ -46,7 +46,7 @@ def present(data: dict[str, Any]) -> StudyResult:
 
 
 def finding(rows: Sequence[Row]) -> tuple[str, Agreement]:
-    """How the readings ended, in one sentence, and the verdict."""
+    """The ends of the readings in one sentence, and the verdict."""
     first = next((row for row in rows if row["reading"] == STATED), None)
     if first is None:
         return "not computed", "no"
@@ -84,7 +84,7 @@ def _short(rows: Sequence[Row], size: int) -> list[Row]:
 
 
 def _screened(rows: Sequence[Row]) -> str:
-    """How many held to the end of the short runs, of one size."""
+    """The number of readings of one size that held to the end of the short runs."""
     held = [row["reading"] for row in rows if not failed(row)]
     times = [row["time"] for row in rows if failed(row)]
     when = f", the others fail at t = {min(times):.2g} to {max(times):.2g}" if times else ""

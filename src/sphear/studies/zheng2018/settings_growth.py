@@ -1,4 +1,4 @@
-"""How fast disorder grows on a lattice under a pressure, by the symmetric gradient of eq. 3.
+"""Growth rates of disorder on a lattice under a pressure, by the symmetric gradient of eq. 3.
 
 Particles of a lattice are displaced by xi exp(i k . x). Under an even pressure p the gradient of eq. 3 is then
 2 p S xi, with S(k) = sum_j V_j H(r_j) (1 - cos k . r_j) and H the second derivatives of the kernel, and

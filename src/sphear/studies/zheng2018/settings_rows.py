@@ -1,4 +1,4 @@
-"""What is kept of the search for the paper's own settings."""
+"""Rows to keep of the search for the paper's own settings."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Search:
 
 
 def identity(row: Mapping[str, Any]) -> tuple[Any, ...]:
-    """What tells a run from others."""
+    """The settings that tell a run from others."""
     return row["reading"], row["resolution"], row["until"]
 
 
@@ -69,12 +69,12 @@ def _current(row: Row) -> bool:
 
 
 def data_of(results: Mapping[Tried, SweepResult]) -> dict[str, Any]:
-    """What is shown of these runs alone."""
+    """The data of these runs alone."""
     return {"screened": SCREENED, "runs": [row_of(each, result) for each, result in results.items()]}
 
 
 def row_of(each: Tried, result: SweepResult) -> Row:
-    """What is kept of a run."""
+    """The row to keep of a run."""
     last, history = result.metrics, result.history
     row: Row = {
         **each._asdict(), "changes": BY_NAME[each.reading].changes, "end": result.end, "time": _short(last["time"]),

@@ -11,7 +11,7 @@ CLAIM = "on uniform particles VISC-01 and VISC-02 converge with first order, VIS
 
 
 def three_digits(row: dict[str, float]) -> bool:
-    """Whether the computed error, rounded as the paper prints it, is the published one."""
+    """True if the computed error, rounded as the paper prints it, is the published one."""
     return f"{row['computed']:.2e}" == f"{row['published']:.2e}"
 
 
