@@ -184,6 +184,8 @@ CAUSES = {
     TOO_FEW_NEIGHBOURS: "too few neighbours for a correction or a fit",
     NOT_FINITE: "an acceleration that is not a number; the time step may be too large, or the particles unstable",
     TOO_FAST: "a speed above the speed of sound, where the flow is no longer weakly compressible",
-    THROUGH_A_WALL: "a particle went through a wall, as when the time step is too long or particles have lost their order",
+    THROUGH_A_WALL: (
+        "a particle went through a wall, as when the time step is too long or particles have lost their order"
+    ),
     NOT_POSITIVE: "a density or an energy that is not positive, as when particles run apart",
 }
