@@ -23,11 +23,12 @@ class History(Observer):
     Args:
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
 
     Example:
         >>> import sphear
         >>> sphear.History(every=0.1)
-        History(every=0.1, steps=None)
+        History(every=0.1, steps=None, when=None)
     """
 
     def look(self, run: Run) -> dict[str, float]:
