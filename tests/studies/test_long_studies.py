@@ -13,11 +13,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sphear import studies
+from sphear.progress import no_progress
 from sphear.results import OutputFolder
 from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10
 from sphear.studies.basa2009.robustness import BEST_REYNOLDS
 from sphear.studies.kept import LongStudy, ShortStudy, as_text, kept
-from sphear.studies.result import no_progress
 from sphear.sweeps import plan
 
 ITEMS = [(paper, item) for paper, named in studies.ITEMS.items() for item in named]

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from sphear.progress import no_progress
 from sphear.schemes.base import FlowFailure, FlowInTime
 from sphear.schemes.watch import LOST, Watch, unresolved
 from sphear.simulation.observers import Observer
@@ -21,10 +22,6 @@ Kept = tuple[dict[str, Array], list[int], list[int]]  # a state, rows of each ob
 
 ROUND_OFF = 1e-12  # of a time
 NEVER = -1
-
-
-def quietly(text: str) -> None:
-    """Tell nobody."""
 
 
 def aloud(text: str) -> None:
@@ -77,7 +74,7 @@ class Run:
         self,
         until: float,
         max_steps: int,
-        progress: Callable[[str], None] = quietly,
+        progress: Callable[[str], None] = no_progress,
         keep: Path | None = None,
         stopped: Callable[[], bool] = lambda: False,
         warn: Callable[[str], None] = aloud,

@@ -9,8 +9,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING, cast
 
 from sphear.names import unknown
+from sphear.progress import no_progress
 from sphear.studies.kept import LongStudy, ShortStudy, kept
-from sphear.studies.result import Progress, StudyResult, no_progress
+from sphear.studies.result import Progress, StudyResult
 
 if TYPE_CHECKING:
     from typing_extensions import TypeIs

@@ -12,12 +12,13 @@ from sphear.cases.flow.base import FlowCase, Settings
 from sphear.cases.flow.history import CaseHistory, nothing
 from sphear.cases.flow.own_walls import opened
 from sphear.names import unknown
+from sphear.progress import no_progress
 from sphear.schemes.base import flow_in_time
 from sphear.schemes.named import named
 from sphear.schemes.watch import Watch
 from sphear.simulation.observers import Observer
 from sphear.simulation.observers.base import check_observer
-from sphear.simulation.run import ROUND_OFF, Kept, Run, aloud, quietly
+from sphear.simulation.run import ROUND_OFF, Kept, Run, aloud
 from sphear.simulation.saved import About, check, read, write
 from sphear.versions import versions
 
@@ -105,7 +106,7 @@ class FlowRun(Run):
 
     def run(
         self,
-        progress: Callable[[str], None] = quietly,
+        progress: Callable[[str], None] = no_progress,
         keep: Path | None = None,
         *,
         stopped: Callable[[], bool] = lambda: False,

@@ -12,9 +12,10 @@ from collections.abc import Collection, Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sphear.progress import no_progress
 from sphear.references.zheng2018 import TERMS as PAPER_TERMS
 from sphear.studies.kept import runs_folder, store, swept
-from sphear.studies.result import Progress, no_progress
+from sphear.studies.result import Progress
 from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sphear.progress import no_progress
 from sphear.studies.kept import store, swept
-from sphear.studies.result import Progress, no_progress
+from sphear.studies.result import Progress
 from sphear.studies.rows import Row, significant
 from sphear.studies.zheng2018.cavities import PAPER
 from sphear.studies.zheng2018.cavity_rows import scores
