@@ -8,10 +8,9 @@ Each run is kept as it ends, and an interrupted computation goes on where it sto
 from __future__ import annotations
 
 import argparse
-from importlib import import_module
 from pathlib import Path
 
-from sphear.studies import ITEMS
+from sphear.studies import ITEMS, is_long, kept_as, study_of
 from sphear.studies.kept import as_text
 
 RESULTS = Path(__file__).parent / "basa2009"
@@ -24,9 +23,9 @@ def main() -> None:
     parser.add_argument("--workers", type=int, default=1)
     chosen = parser.parse_args()
     for item in chosen.items or ITEMS["basa2009"]:
-        module = import_module(f"sphear.studies.basa2009.{item.replace('-', '_')}")
-        if hasattr(module, "compute") and not hasattr(module, "KEPT"):
-            data = module.compute(quick=False, workers=chosen.workers, progress=print)
+        study = study_of("basa2009", item)
+        if is_long(study) and kept_as(study, item) == item:
+            data = study.compute(quick=False, workers=chosen.workers, progress=print)
             (RESULTS / f"{item}.json").write_text(as_text(data), encoding="utf-8")
 
 

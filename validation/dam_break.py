@@ -20,24 +20,19 @@ from sphear.references import dam_break as experiment
 from sphear.results.figure import save
 from sphear.results.figure.flow import draw_particles
 from sphear.results.figure.style import INK, grid, look, styled
+from sphear.simulation.observers import Snapshot, Snapshots
 
 SIZES = (10, 20, 40)  # particles across the column
 SHOWN = (1.0, 2.0, 3.0)  # times
 PICTURE = Path(__file__).parents[1] / "docs" / "images" / "dam-break.png"
 
-Array = np.ndarray[Any, Any]
 
-
-def computed(size: int) -> tuple[dict[str, Any], list[tuple[Array, Array, float]]]:
+def computed(size: int) -> tuple[dict[str, Any], list[Snapshot]]:
     """What is kept of a run, and its particles at the times shown."""
-    run = FlowRun(FLOWS["dam-break"], FLOWS["dam-break"].settings(resolution=size))
-    snapshots: list[tuple[Array, Array, float]] = []
-
-    def look_at(_: str) -> None:
-        if len(snapshots) < len(SHOWN) and run.history[-1]["time"] >= SHOWN[len(snapshots)]:
-            snapshots.append((run.flow.positions.copy(), run.flow.velocities.copy(), run.flow.problem.spacing))
-
-    run.run(look_at)
+    case = FLOWS["dam-break"]
+    settings = case.settings(resolution=size)
+    snapshots = Snapshots(when=np.array(SHOWN) * case.time_unit(settings))
+    run = FlowRun(case, settings, observers=[snapshots]).run()
     time, front, energy = (np.array([row[key] for row in run.history]) for key in ("time", "front", "energy"))
     known = np.array(experiment.TIMES) <= time[-1]
     times, fronts = np.array(experiment.TIMES)[known], np.array(experiment.FRONTS)[known]
@@ -51,15 +46,15 @@ def computed(size: int) -> tuple[dict[str, Any], list[tuple[Array, Array, float]
         "largest growth of energy": float(f"{np.diff(energy).max():.3g}"),
         "energy at the end": round(float(energy[-1]), 4),
     }
-    return kept, snapshots
+    return kept, snapshots.rows
 
 
 @styled
-def figure(rows: list[dict[str, Any]], snapshots: list[tuple[Array, Array, float]]) -> Figure:
+def figure(rows: list[dict[str, Any]], snapshots: list[Snapshot]) -> Figure:
     """The particles of the finest run, and the fronts."""
     made, axes = grid(4, 2, (5.2, 2.7), "A dam breaks")
-    for ax, (places, velocities, spacing), time in zip(axes, snapshots, SHOWN, strict=False):
-        draw_particles(ax, places, velocities, spacing)
+    for ax, snapshot, time in zip(axes, snapshots, SHOWN, strict=False):
+        draw_particles(ax, snapshot.positions, snapshot.velocities, 1 / rows[-1]["particles across"])
         ax.set(title=f"speed at t = {time:g}", xlim=(0, 4.2), ylim=(0, 2.1))
     for row, marker in zip(rows, ("-.", "--", "-"), strict=True):
         axes[3].plot(row["time"], row["front"], marker, color=look("morris").colour, label=f"{row['particles across']}")

@@ -10,14 +10,12 @@ minute of where it stood. What was kept before stays where nothing new was compu
 from __future__ import annotations
 
 import argparse
-import json
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from sphear.errors import SphearError
-from sphear.studies.kept import as_text
+from _keeping import keep_as_they_end, parser, written
+
 from sphear.studies.zheng2018.cavities import CASES, TERMS, Study, Wanted, chosen
 from sphear.studies.zheng2018.cavity_rows import data_of, identity, merged
 
@@ -38,51 +36,34 @@ def _item(text: str) -> str:
     return text
 
 
-def _written(case: str) -> dict[str, Any] | None:
-    path = RESULTS / f"{case}.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
-
-
 def _missing(runs: list[Wanted], cases: list[str]) -> Iterator[Wanted]:
     """Those of which no numbers are written."""
     known = set()
     for case in cases:
-        whole = merged(case, _written(case), data_of(case, {}))
+        whole = merged(case, written(RESULTS / f"{case}.json"), data_of(case, {}))
         known |= {(case, *identity(row)) for row in whole["runs"]}
     return (each for each in runs if (each.case, *identity(each._asdict())) not in known)
 
 
 def main() -> None:
     """Compute and write."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("items", nargs="*", metavar="ITEM", type=_item, help="such as figure-10")
-    parser.add_argument("--workers", type=int, default=1, help="processes")
-    parser.add_argument("--at-most", type=int, metavar="RESOLUTION", help="particles a side")
-    parser.add_argument("--terms", type=_terms, metavar="TERM,TERM...", help=f"some of {', '.join(TERMS)}")
-    parser.add_argument("--missing", action="store_true", help="only those of which no numbers are written")
-    parser.add_argument("--collect", action="store_true", help="write what was computed so far, and compute nothing")
-    options = parser.parse_args()
+    asked = parser(__doc__)
+    asked.add_argument("items", nargs="*", metavar="ITEM", type=_item, help="such as figure-10")
+    asked.add_argument("--terms", type=_terms, metavar="TERM,TERM...", help=f"some of {', '.join(TERMS)}")
+    options = asked.parse_args()
     cases = list(dict.fromkeys(ITEMS[item] for item in options.items or ITEMS))
     runs = chosen(cases, options.at_most, options.terms)
     study = Study(_missing(runs, cases) if options.missing else runs)
 
-    def keep(text: str) -> None:
-        print(text, flush=True)
-        found = study.kept()
+    def numbers() -> dict[Path, dict[str, Any]]:
+        found, kept = study.kept(), {}
         for case in cases:
+            path = RESULTS / f"{case}.json"
             new = data_of(case, {each: result for each, result in found.items() if each.case == case})
-            temporary = RESULTS / f"{case}.tmp"
-            temporary.write_text(as_text(merged(case, _written(case), new)), encoding="utf-8")
-            temporary.replace(temporary.with_suffix(".json"))
+            kept[path] = merged(case, written(path), new)
+        return kept
 
-    try:
-        if not options.collect:
-            study.compute(options.workers, keep)
-    except KeyboardInterrupt:
-        sys.exit("interrupted; what has ended is written, the same command goes on")
-    except SphearError as error:
-        sys.exit(str(error))
-    keep("written")
+    keep_as_they_end(options, study.compute, numbers)
 
 
 if __name__ == "__main__":

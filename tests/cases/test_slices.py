@@ -11,7 +11,7 @@ import pytest
 
 from sphear.cases.flow import FLOWS, FlowRun
 from sphear.cases.flow import run as module
-from sphear.cases.flow.run import CaseHistory
+from sphear.cases.flow.history import CaseHistory
 from sphear.errors import SphearError
 from sphear.schemes.presets import PRESETS
 from sphear.simulation import pace

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import pytest
 
 from sphear.cases.flow import FlowRun
-from sphear.cases.flow.run import CaseHistory
+from sphear.cases.flow.history import CaseHistory
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.flow import FlowRun
-from sphear.cases.flow.run import CaseHistory
+from sphear.cases.flow.history import CaseHistory
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.presets import preset_settings
 

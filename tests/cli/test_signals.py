@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from sphear.cases.flow import FlowRun
-from sphear.cases.flow.run import CaseHistory
+from sphear.cases.flow.history import CaseHistory
 from sphear.cli.signals import Signals
 from sphear.results import OutputFolder
 

@@ -81,6 +81,50 @@ def test_a_function_is_called_with_the_simulation() -> None:
     assert called.rows == [3, 6, 7]
 
 
+def test_times_of_ones_own_are_looked_at_by_the_nearest_step_and_nothing_else_is() -> None:
+    dt = vortex().flow.time_step
+    at = (3.4 * dt, 0.0, 6.6 * dt, 6.8 * dt)
+    several = [
+        sphear.History(when=at),
+        sphear.Snapshots(when=at),
+        sphear.Probe((0.5, 0.5), when=at),
+        sphear.Profile("u", x=0.5, when=at),
+        sphear.Call(lambda simulation: simulation.steps, when=at),
+    ]
+    flow = vortex(*several).step(2).step(8)
+    assert several[-1].rows == [0, 3, 7]
+    assert np.allclose(flow.history["time"] / dt, [0, 3, 7])
+    for observer in several:
+        assert len(observer.rows) == 3
+
+
+def test_a_function_and_a_profile_look_at_the_start_if_asked_to() -> None:
+    called = sphear.Call(lambda simulation: simulation.steps, steps=3, at_start=True)
+    profile = sphear.Profile("u", y=0.25, stations=5, at_start=True)
+    flow = vortex(called, profile).step(4)
+    assert called.rows == [0, 3, 4]
+    assert [time for time, _ in profile.rows] == [0.0, flow.time]
+    assert np.allclose(profile.rows[0][1], np.sin(2 * np.pi * profile.at) * np.cos(np.pi / 2), atol=0.02)
+
+
+def test_what_broke_down_is_looked_at_as_the_end_only() -> None:
+    dt = vortex().flow.time_step
+    times, steps = sphear.Call(lambda simulation: simulation.steps, when=(dt, 2 * dt, 3 * dt)), sphear.History(steps=1)
+    flow = vortex(times, steps)
+    advance = flow.flow.advance
+
+    def broken(count: int) -> None:
+        advance(count)
+        if flow.steps == 2:
+            raise sphear.FlowFailure("so")
+
+    flow.flow.advance = broken  # type: ignore[method-assign, assignment]
+    with pytest.raises(sphear.FlowFailure, match="so"):
+        flow.step(5)
+    assert times.rows == [1]
+    assert [row["steps"] for row in steps.rows] == [0, 1, 2]
+
+
 def test_a_rule_ends_a_run() -> None:
     rule = sphear.StopWhen(lambda simulation: "slow" if simulation.time > 0.1 else None, steps=1)
     history = sphear.History(every=10.0)
@@ -133,7 +177,11 @@ def test_an_interrupted_run_takes_its_rows_back(monkeypatch: pytest.MonkeyPatch)
     [
         (lambda: sphear.History(every=0), "the interval of History is a positive time, not 0"),
         (lambda: sphear.History(steps=0), "the interval of History is a positive number of steps, not 0"),
-        (lambda: sphear.History(every=1.0, steps=1), "not both"),
+        (lambda: sphear.History(every=1.0, steps=1), "every so many steps or at times of its own: give one"),
+        (lambda: sphear.Snapshots(steps=1, when=(1.0,)), "give one"),
+        (lambda: sphear.Snapshots(when=()), "Snapshots looks at times from the start on, some of them, not at ()"),
+        (lambda: sphear.Probe((0.5, 0.5), when=(0.1, -0.1)), "Probe looks at times from the start on"),
+        (lambda: sphear.Call(str, when=(float("nan"),)), "Call looks at times from the start on"),
         (lambda: sphear.Profile("w", x=0.5), "there is no velocity component named 'w'"),
         (lambda: sphear.Profile("u"), "a profile lies along x=c or y=c"),
         (lambda: sphear.Profile("u", x=float("nan")), "a finite coordinate"),

@@ -6,7 +6,6 @@ import inspect
 import json
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
@@ -14,20 +13,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sphear import studies
+from sphear.progress import no_progress
 from sphear.results import OutputFolder
 from sphear.studies.basa2009 import figure_5, figure_8, figure_9, figure_10
 from sphear.studies.basa2009.robustness import BEST_REYNOLDS
-from sphear.studies.kept import LongStudy, as_text, kept
-from sphear.studies.result import no_progress
+from sphear.studies.kept import LongStudy, ShortStudy, as_text, kept
 from sphear.sweeps import plan
 
-
-def module(paper: str, item: str) -> ModuleType:
-    return import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}")
-
-
 ITEMS = [(paper, item) for paper, named in studies.ITEMS.items() for item in named]
-LONG = [(paper, item) for paper, item in ITEMS if hasattr(module(paper, item), "compute")]
+LONG = [(paper, item) for paper, item in ITEMS if studies.is_long(studies.study_of(paper, item))]
 
 
 def signature(function: Any) -> list[tuple[str, Any, Any]]:
@@ -38,14 +32,26 @@ def signature(function: Any) -> list[tuple[str, Any, Any]]:
 
 @pytest.mark.parametrize(("paper", "item"), LONG)
 def test_a_long_study_is_called_as_the_protocol_says(paper: str, item: str) -> None:
-    study = module(paper, item)
+    study = studies.study_of(paper, item)
+    assert studies.is_long(study)
     assert signature(study.compute) == signature(LongStudy.compute)
     assert signature(study.present) == signature(LongStudy.present)
 
 
 @pytest.mark.parametrize(("paper", "item"), sorted(set(ITEMS) - set(LONG)))
 def test_a_short_study_runs_at_once(paper: str, item: str) -> None:
-    assert [name for name, _, _ in signature(module(paper, item).run)] == ["quick", "progress"]
+    study = studies.study_of(paper, item)
+    assert not studies.is_long(study)
+    assert signature(study.run) == signature(ShortStudy.run)
+
+
+def test_items_of_one_module_are_its_studies_by_their_numbers() -> None:
+    for paper, modules in studies.TOGETHER.items():
+        for module, together in modules.items():
+            found = import_module(f"sphear.studies.{paper}.{module}").STUDIES
+            assert tuple(found) == together
+            assert [f"figure-{study.number}" for study in found.values()] == list(together)
+            assert set(together) <= set(studies.ITEMS[paper])
 
 
 def test_the_figures_of_the_channel_and_the_cavity_are_long() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from sphear.cases.flow import FLOWS, FlowRun
 from sphear.errors import SphearError
 from sphear.references.cavity import cavity_cylinder, ghia, mac
 from sphear.results import OutputFolder
+from sphear.studies import is_long, study_of
 from sphear.studies.kept import as_text, kept, store
 from sphear.studies.result import StudyResult
 from sphear.studies.zheng2018 import cavities
@@ -29,9 +29,9 @@ STATIONS["cavity-cylinder"] = STATIONS["cavity"][abs(STATIONS["cavity"] - 0.5) >
 
 
 def present(item: str, data: dict[str, Any]) -> StudyResult:
-    result = import_module(f"sphear.studies.zheng2018.{item.replace('-', '_')}").present(data)
-    assert isinstance(result, StudyResult)
-    return result
+    study = study_of("zheng2018", item)
+    assert is_long(study)
+    return study.present(data)
 
 
 def made_up(case: str, term: str, size: int, error: float, end: str = "time") -> dict[str, Any]:

@@ -11,6 +11,7 @@ from sphear.cases.conservation import conservation
 from sphear.cases.patch_test import PatchTest
 from sphear.errors import SphearError, quoted
 from sphear.operators import arguments
+from sphear.progress import no_progress
 from sphear.viscosity import ViscousTerm
 from sphear.viscosity.card import Card, card
 
@@ -52,7 +53,7 @@ class MeasuredCard:
         return self.text()
 
 
-def measured_card(term: str | ViscousTerm, progress: Callable[[str], None] = lambda text: None) -> MeasuredCard:
+def measured_card(term: str | ViscousTerm, progress: Callable[[str], None] = no_progress) -> MeasuredCard:
     """Measure a viscous term: the order of its Laplacian on a lattice and on disordered particles, what it conserves.
 
     Orders are of the L1 error of the Laplacian of sin(2 pi x) sin(2 pi y), or for a force along the line of centres of

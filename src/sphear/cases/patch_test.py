@@ -22,6 +22,7 @@ from sphear.operators import Particles, arguments
 from sphear.operators.doubts import NoNeighboursError, tell_of_loneliness
 from sphear.operators.particles import needing_neighbours, too_few_neighbours
 from sphear.operators.scaling import TooLargeError
+from sphear.progress import no_progress
 from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, plain, text
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
@@ -83,7 +84,7 @@ class PatchTest(BaseModel):
             with checked("the setting "):
                 super().__init__(**settings)
 
-    def rows(self, progress: Callable[[str], None] = lambda text: None) -> list[dict[str, Any]]:
+    def rows(self, progress: Callable[[str], None] = no_progress) -> list[dict[str, Any]]:
         """One row a term and size: the errors, averaged over the seeds, and the order from the size before.
 
         Args:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import erfc
 
-from sphear.errors import SphearError
+from sphear.references.checks import check_finite, check_positive, check_time
 
 EARLY = 0.05  # nu t / L^2 up to which the sum over images has few terms; from there on the series has
 FAR = 30.0  # where erfc is zero
@@ -38,11 +38,8 @@ class PlaneCouette:
     wall_velocity: float
 
     def __post_init__(self) -> None:
-        for what, value in (("gap", self.gap), ("kinematic viscosity", self.kinematic_viscosity)):
-            if not 0 < value < math.inf:
-                raise SphearError(f"the {what} must be positive, not {value}")
-        if not math.isfinite(self.wall_velocity):
-            raise SphearError(f"the wall velocity must be finite, not {self.wall_velocity}")
+        check_positive(gap=self.gap, kinematic_viscosity=self.kinematic_viscosity)
+        check_finite(wall_velocity=self.wall_velocity)
 
     @property
     def reynolds(self) -> float:
@@ -73,8 +70,7 @@ class PlaneCouette:
         Raises:
             SphearError: the time is negative.
         """
-        if not time >= 0:
-            raise SphearError(f"the time must not be negative, it is {time}")
+        check_time(time)
         s = np.asarray(y, dtype=np.float64) / self.gap
         for wall in (0.0, 1.0):
             s = np.where(np.abs(s - wall) <= ROUNDING, wall, s)

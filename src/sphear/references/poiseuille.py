@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import erf, erfc
 
 from sphear.errors import SphearError
+from sphear.references.checks import check_finite, check_positive, check_time
 
 EARLY = 0.05  # nu t / d^2 up to which the sum over images has few terms; from there on the series has
 FAR = 30.0  # where erfc and exp(-x^2) are zero
@@ -37,11 +38,8 @@ class PlanePoiseuille:
     body_force: float
 
     def __post_init__(self) -> None:
-        for what, value in (("half width", self.half_width), ("kinematic viscosity", self.kinematic_viscosity)):
-            if not 0 < value < math.inf:
-                raise SphearError(f"the {what} must be positive, not {value}")
-        if not math.isfinite(self.body_force):
-            raise SphearError(f"the body force must be finite, not {self.body_force}")
+        check_positive(half_width=self.half_width, kinematic_viscosity=self.kinematic_viscosity)
+        check_finite(body_force=self.body_force)
 
     @classmethod
     def of_reynolds(cls, reynolds: float, half_width: float = 0.5, kinematic_viscosity: float = 1.0) -> PlanePoiseuille:
@@ -50,8 +48,7 @@ class PlanePoiseuille:
         Raises:
             SphearError: a parameter is not a positive number.
         """
-        if not 0 < reynolds < math.inf:
-            raise SphearError(f"the Reynolds number must be positive, not {reynolds}")
+        check_positive(Reynolds_number=reynolds)
         flow = cls(half_width, kinematic_viscosity, 0.0)  # which checks them before they divide
         return replace(flow, body_force=2.0 * kinematic_viscosity**2 * reynolds / half_width**3)
 
@@ -102,8 +99,7 @@ class PlanePoiseuille:
         Raises:
             SphearError: the time is negative.
         """
-        if not time >= 0:
-            raise SphearError(f"the time must not be negative, it is {time}")
+        check_time(time)
         s = 1.0 - np.abs(np.asarray(y, dtype=np.float64)) / self.half_width  # from the nearer wall, in units of d
         s = np.where(np.abs(s) <= ROUNDING, 0.0, np.where(s < 0.0, np.nan, s))
         diffusion = time * self.kinematic_viscosity / self.half_width**2

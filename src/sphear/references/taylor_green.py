@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from sphear.errors import SphearError
+from sphear.references.checks import check_positive
 
 
 @dataclass(frozen=True)
@@ -38,9 +39,7 @@ class TaylorGreen:
     density: float = 1.0
 
     def __post_init__(self) -> None:
-        for what, value in vars(self).items():
-            if not 0 < value < math.inf:
-                raise SphearError(f"the {what.replace('_', ' ')} must be positive, not {value}")
+        check_positive(**vars(self))
 
     @property
     def reynolds(self) -> float:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from sphear.progress import no_progress
 from sphear.schemes.base import FlowFailure, FlowInTime
 from sphear.schemes.watch import LOST, Watch, unresolved
 from sphear.simulation.observers import Observer
@@ -21,10 +22,6 @@ Kept = tuple[dict[str, Array], list[int], list[int]]  # a state, rows of each ob
 
 ROUND_OFF = 1e-12  # of a time
 NEVER = -1
-
-
-def quietly(text: str) -> None:
-    """Tell nobody."""
 
 
 def aloud(text: str) -> None:
@@ -61,13 +58,23 @@ class Run:
         self.saved: float | None = None
         self._looked = [NEVER] * (len(self.observers) + 1)
         self._steps = math.inf  # to the planned end
-        self._warned = False
+        self._warned = self._begun = False
+
+    def _begin(self) -> None:
+        """Tell the observers of the start, and let those look that look there."""
+        if self._begun:
+            return
+        self._begun = True
+        for observer in self.observers:
+            observer.start(self)
+            if observer.at_start if observer.at_end else observer.due(self):
+                observer.watch(self)
 
     def _to_end(
         self,
         until: float,
         max_steps: int,
-        progress: Callable[[str], None] = quietly,
+        progress: Callable[[str], None] = no_progress,
         keep: Path | None = None,
         stopped: Callable[[], bool] = lambda: False,
         warn: Callable[[str], None] = aloud,
@@ -147,11 +154,19 @@ class Run:
         return self.end.startswith("failed")
 
     def _look(self, last: bool, again: bool = False) -> bool:
-        """Let all look for whom it is time, at the end all that have not yet, or all again; whether anyone did."""
+        """Let all look for whom it is time, at the end all that look there and have not yet; whether anyone did.
+
+        Args:
+            last: at the end.
+            again: of a flow that broke down, all that look at the end, also those that looked at this step.
+        """
         anyone = False
         for number, observer in enumerate(self._watching):
-            if (again or self._looked[number] != self.flow.steps) and (last or observer.due(self)):
+            unseen = self._looked[number] != self.flow.steps
+            usual = unseen and ((last and observer.at_end) or observer.due(self))
+            if again or usual:
                 self._looked[number] = self.flow.steps
+            if observer.at_end if again else usual:  # what broke down is no flow at a time that was chosen
                 observer.watch(self)
                 anyone = True
         return anyone

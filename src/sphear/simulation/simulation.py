@@ -110,7 +110,6 @@ class Simulation(Run):
         self._judge = self._plausible = _Plausible(steps=1)
         self.filled = filled
         self.region, self.fluid, self.boundaries, self.scheme = region, fluid, conditions, chosen
-        self._started = False
 
     @property
     def time(self) -> float:
@@ -199,16 +198,6 @@ class Simulation(Run):
         if self.failed:
             raise FlowFailure(self.end.removeprefix("failed: "))
         return self
-
-    def _begin(self) -> None:
-        """Tell the observers of the start, and let those look that look there."""
-        if self._started:
-            return
-        self._started = True
-        for observer in self.observers:
-            observer.start(self)
-            if observer.at_start:
-                observer.watch(self)
 
     def _save(self, path: Path, kept: Kept) -> None:
         state = kept[0]

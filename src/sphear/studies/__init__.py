@@ -6,11 +6,15 @@ The catalogue knows the title and the module of each item, so that it can be lis
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING, cast
 
-from sphear.errors import SphearError
 from sphear.names import unknown
-from sphear.studies.kept import kept as kept_numbers
-from sphear.studies.result import Progress, StudyResult, no_progress
+from sphear.progress import no_progress
+from sphear.studies.kept import LongStudy, ShortStudy, kept
+from sphear.studies.result import Progress, StudyResult
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeIs
 
 PAPERS = {
     "zheng2018": "Zheng, Ma & Shao 2018, Study on SPH viscosity term formulations, Applied Sciences 8(2):249",
@@ -53,6 +57,16 @@ ITEMS: dict[str, dict[str, str]] = {
     },
 }
 
+TOGETHER = {
+    "zheng2018": {
+        "profile_figures": ("figure-2", "figure-4"),
+        "convergence_figures": ("figure-3", "figure-5"),
+        "cavity_figures": tuple(f"figure-{number}" for number in range(7, 15)),
+    },
+    "basa2009": {},
+}
+"""Items that one module has as its `STUDIES`; each other item is a module of its own."""
+
 
 def items(paper: str, wanted: list[str]) -> list[str]:
     """The items asked for, all if none; raises SphearError for an unknown paper or item."""
@@ -62,6 +76,30 @@ def items(paper: str, wanted: list[str]) -> list[str]:
         if item not in ITEMS[paper]:
             raise unknown(f"item of {paper}", item, ITEMS[paper])
     return list(dict.fromkeys(wanted)) or list(ITEMS[paper])
+
+
+def study_of(paper: str, item: str) -> LongStudy | ShortStudy:
+    """The study of a table or figure: its module, or an object of the module that it shares with others like it.
+
+    Raises:
+        SphearError: there is no such paper or item.
+    """
+    (item,) = items(paper, [item])
+    for module, together in TOGETHER[paper].items():
+        if item in together:
+            studies: dict[str, LongStudy | ShortStudy] = import_module(f"sphear.studies.{paper}.{module}").STUDIES
+            return studies[item]
+    return cast("LongStudy | ShortStudy", import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}"))
+
+
+def is_long(study: LongStudy | ShortStudy) -> TypeIs[LongStudy]:
+    """Whether numbers of a study are kept with the package."""
+    return hasattr(study, "compute")
+
+
+def kept_as(study: LongStudy, item: str) -> str:
+    """The name under which the numbers of an item are kept: figures of the same runs share them."""
+    return str(getattr(study, "KEPT", item))
 
 
 def reproduce(
@@ -83,17 +121,10 @@ def reproduce(
         workers: processes for the runs of long ones.
         progress: told what is being computed.
     """
-    (item,) = items(paper, [item])
-    module = import_module(f"sphear.studies.{paper}.{item.replace('-', '_')}")
-    if hasattr(module, "compute"):
+    study = study_of(paper, item)
+    if is_long(study):
+        where = kept_as(study, item)
         computed = quick or rerun
-        where = getattr(module, "KEPT", item)  # figures of the same runs share their numbers
-        data = (
-            module.compute(quick=quick, workers=workers, progress=progress) if computed else kept_numbers(paper, where)
-        )
-        result = module.present(data)
-    else:
-        result = module.run(quick=quick, progress=progress)
-    if not isinstance(result, StudyResult):
-        raise SphearError(f"the study {paper} {item} gave no result")
-    return result
+        data = study.compute(quick=quick, workers=workers, progress=progress) if computed else kept(paper, where)
+        return study.present(data)
+    return study.run(quick=quick, progress=progress)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Collection, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -15,6 +16,8 @@ from sphear.studies.result import Progress, StudyResult
 if TYPE_CHECKING:
     from sphear.sweeps import Run, Store, SweepResult
 
+DERIVED = ("sound_speed", "time_step", "kinematic_viscosity", "until", "force", "threads")
+
 
 class LongStudy(Protocol):
     """A study whose numbers take long: computing them and presenting them are two steps."""
@@ -23,6 +26,13 @@ class LongStudy(Protocol):
         """All numbers that are shown, as JSON knows them."""
 
     def present(self, data: dict[str, Any]) -> StudyResult:
+        """Tables, figures and the finding."""
+
+
+class ShortStudy(Protocol):
+    """A study that is computed whenever it is asked for."""
+
+    def run(self, *, quick: bool, progress: Progress) -> StudyResult:
         """Tables, figures and the finding."""
 
 
@@ -50,6 +60,16 @@ def as_text(data: dict[str, Any]) -> str:
         else:
             lines.append(f"{json.dumps(key)}: {json.dumps(value)}")
     return "{\n " + ",\n ".join(lines) + "\n}\n"
+
+
+def in_common(results: Sequence[SweepResult], varied: Collection[str]) -> dict[str, Any]:
+    """The settings that all runs of a study have, without those that are gone through and those that follow from them.
+
+    Args:
+        results: of the runs.
+        varied: the settings that are gone through.
+    """
+    return {key: value for key, value in results[0].settings.items() if key not in (*varied, *DERIVED)}
 
 
 def runs_folder(paper: str) -> Path:

@@ -45,7 +45,3 @@ class StudyResult:
         if self.other_readings:
             result["other_readings"] = self.other_readings
         return {**result, "claim": self.claim, "finding": self.finding, "agrees": self.agrees}
-
-
-def no_progress(text: str) -> None:
-    """Tells nobody."""

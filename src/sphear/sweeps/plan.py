@@ -13,6 +13,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError, quoted
+from sphear.progress import no_progress
 from sphear.sweeps.cost import Costs
 from sphear.sweeps.objects import sent
 
@@ -85,10 +86,6 @@ class Run:
 def usual(kind: type[Settings]) -> dict[str, Any]:
     """The general defaults of settings, as JSON has them."""
     return kind().model_dump(mode="json")
-
-
-def no_progress(planned: int, of: int) -> None:
-    """Tells nobody."""
 
 
 def plan(

@@ -44,10 +44,6 @@ class SweepProgress:
 Progress = Callable[[SweepProgress], None]
 
 
-def no_progress(state: SweepProgress) -> None:
-    """Tells nobody."""
-
-
 @dataclass
 class Tracker:
     """Counts what happens in a sweep, and times it.

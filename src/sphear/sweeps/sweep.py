@@ -8,10 +8,11 @@ from contextlib import closing
 from typing import TYPE_CHECKING, Any
 
 from sphear.errors import SphearError, quoted
+from sphear.progress import no_progress
 from sphear.sweeps.cluster import on_cluster
 from sphear.sweeps.events import Finished, Lost, Started
 from sphear.sweeps.pool import on_processes
-from sphear.sweeps.progress import Progress, Tracker, no_progress
+from sphear.sweeps.progress import Progress, Tracker
 from sphear.sweeps.result import SweepResult, lost, of_record
 from sphear.sweeps.worker import COMPUTE
 

@@ -14,15 +14,9 @@ from sphear.schemes.presets import BY_SCHEME, preset_settings
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
 
-__all__ = ["Comparison", "FlowCase", "FlowInTime", "Settings", "kinetic_energy"]
+__all__ = ["Comparison", "FlowCase", "FlowInTime", "Settings"]
 
 Array = np.ndarray[Any, Any]
-
-
-def kinetic_energy(flow: FlowInTime) -> float:
-    """That of a plane flow, of a unit of depth."""
-    problem = flow.problem
-    return float(0.5 * (flow.velocities**2).sum() * problem.spacing**2 * problem.density)
 
 
 class Comparison(NamedTuple):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Unpack
 
 from sphear.cases.flow.base import FlowCase, Settings
@@ -10,9 +10,18 @@ from sphear.cases.flow.options import FlowOptions
 from sphear.cases.flow.run import FlowRun
 from sphear.checked import checked
 from sphear.schemes.base import unknown_setting
+from sphear.simulation.observers import Observer
 
 
-def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOptions]) -> FlowRun:
+def flow(
+    case: str,
+    /,
+    *,
+    preset: str | None = None,
+    observers: Sequence[Observer] = (),
+    beyond: Collection[str] = (),
+    **settings: Unpack[FlowOptions],
+) -> FlowRun:
     """A run of a flow, ready to start; velocities in those of the lid, the channel or the vortex, see the case.
 
         run = sphear.flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400, until=20).run()
@@ -23,17 +32,20 @@ def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOpti
         case: "poiseuille", "couette", "taylor-green", "cavity", "cavity-cylinder" or "dam-break".
         preset: the settings of a paper, "basa2009" of the explicit scheme, "zheng2018" of the incompressible one; those
             given by name go before them. Without one they are the best that were found.
+        observers: which look at the run, such as `sphear.Snapshots(every=0.1)`, at times of the flow: `run.unit` times
+            those that are printed.
+        beyond: ends that the run goes on beyond, such as "steady" of a channel.
         settings: as `--set` of `sphear run` takes them, such as `scheme`, `viscosity`, `reynolds`, `resolution` and
             `until`; `sphear show case NAME` says what each means, what it may be and what it is by default. Viscous
             terms, kernels, corrections and equations of state are names or objects.
 
     Raises:
-        SphearError: there is no such case, preset or setting, or one does not fit the others.
+        SphearError: there is no such case, preset, setting or end, or one does not fit the others.
     """
     from sphear.cases.flow import FLOWS
 
     chosen = FLOWS[case]
-    return FlowRun(chosen, flow_settings(chosen, settings, preset))
+    return FlowRun(chosen, flow_settings(chosen, settings, preset), observers=observers, beyond=beyond)
 
 
 def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None = None) -> Settings:

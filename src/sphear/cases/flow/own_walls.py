@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from sphear.boundaries.shapes import Shape, fastest, fitted, fluid_lattice, repeated, written
-from sphear.cases.flow.base import FlowCase, FlowInTime, Settings, kinetic_energy
+from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
 from sphear.errors import SphearError
 from sphear.schemes.incompressible.region import fluid_of
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
+from sphear.simulation.whole_flow import greatest_speed, kinetic_energy
 
 SHARED = ("name", "defaults", "time_name", "horizon", "kinds", "presets")  # with the case without the solid
 
@@ -44,8 +43,7 @@ class AroundSolid(FlowCase):
 
     def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
         """Kinetic energy, of a unit of depth, and the greatest speed."""
-        greatest = float(np.sqrt((flow.velocities**2).sum(axis=1).max()))
-        return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest}
+        return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest_speed(flow)}
 
     def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
         """At the horizon of the case, where nothing says until when."""

@@ -2,41 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.history import CaseHistory, nothing
 from sphear.cases.flow.own_walls import opened
+from sphear.names import unknown
+from sphear.progress import no_progress
 from sphear.schemes.base import flow_in_time
 from sphear.schemes.named import named
 from sphear.schemes.watch import Watch
 from sphear.simulation.observers import Observer
-from sphear.simulation.run import ROUND_OFF, Kept, Run, aloud, quietly
+from sphear.simulation.observers.base import check_observer
+from sphear.simulation.run import ROUND_OFF, Kept, Run, aloud
 from sphear.simulation.saved import About, check, read, write
 from sphear.versions import versions
 
 if TYPE_CHECKING:
     Array = np.ndarray[Any, Any]
 
+FAILED = "failed"  # how ends begin that are failures
 OUTPUTS = 200  # of a run to its planned end
 SELDOM = 1000  # steps between two outputs, at most
-
-
-@dataclass
-class CaseHistory(Observer):
-    """Rows of the metrics of a case; it also judges whether the run has ended."""
-
-    def look(self, run: Run) -> dict[str, float]:
-        """Time in the unit of the case, steps, and metrics of case and scheme."""
-        assert isinstance(run, FlowRun)
-        with np.errstate(all="ignore"):  # also of a flow that broke down
-            metrics = {**run.case.metrics(run.settings, run.flow), **run.flow.metrics()}
-        run.end = run.end or run.implausible() or run.verdict(metrics)
-        return {"time": run.flow.time / run.unit, "steps": run.flow.steps, **metrics}
 
 
 class FlowRun(Run):
@@ -45,6 +36,10 @@ class FlowRun(Run):
     Args:
         case: what is computed.
         settings: how.
+        observers: which look at the run, at intervals or times of the flow, `unit` times those that are printed.
+        beyond: ends of the case that the run goes on beyond: "steady", "failed", which is too large an error or what no
+            fluid does, or another. A flow that breaks down ends, and so does one at its time or its most steps.
+        measured: gives numbers by name beside those of the case, for each row of the history.
 
     Attributes:
         flow: the state.
@@ -55,16 +50,30 @@ class FlowRun(Run):
         saved: time of the state in the file, in the unit of the case; None where nothing was saved.
 
     Raises:
-        SphearError: the settings do not fit the case or each other.
+        SphearError: the settings do not fit the case or each other, or there is no such end.
     """
 
-    def __init__(self, case: FlowCase, settings: Settings) -> None:
+    def __init__(
+        self,
+        case: FlowCase,
+        settings: Settings,
+        *,
+        observers: Sequence[Observer] = (),
+        beyond: Collection[str] = (),
+        measured: Callable[[FlowRun], Mapping[str, float]] = nothing,
+    ) -> None:
+        for observer in observers:
+            check_observer(observer)
+        for end in beyond:
+            if end not in (known := ("steady", FAILED, *case.ends)):
+                raise unknown(f"end of {case.name} to go on beyond", end, known)
         settings = named(settings)
+        self.beyond, self.measured = frozenset(beyond), measured
         self.case, self.settings = opened(case, settings), settings
         problem = self.case.problem(settings)
         unit = case.time_unit(settings)
         flow = flow_in_time(problem, settings, self.planned * unit)
-        super().__init__(flow, Watch(problem), (CaseHistory(),), unit, case.time_name)
+        super().__init__(flow, Watch(problem), (CaseHistory(), *observers), unit, case.time_name)
 
     def __repr__(self) -> str:
         """The case, its settings in short, and the time reached."""
@@ -97,7 +106,7 @@ class FlowRun(Run):
 
     def run(
         self,
-        progress: Callable[[str], None] = quietly,
+        progress: Callable[[str], None] = no_progress,
         keep: str | Path | None = None,
         *,
         stopped: Callable[[], bool] = lambda: False,
@@ -119,6 +128,7 @@ class FlowRun(Run):
             KeyboardInterrupt: Ctrl-C, after which the flow is that of the last copy, at most half a second back or a
                 hundred times as long as a copy takes, or `stopped`; the flow can go on.
         """
+        self._begin()
         steps = min(self.planned * self.unit / self.flow.time_step, self.settings.max_steps)
         self.observers[0].steps = int(np.clip(steps / OUTPUTS, 1, SELDOM))
         if self._recorded and not self.end:  # gone on with: it may have been interrupted at its last output
@@ -135,11 +145,16 @@ class FlowRun(Run):
 
     def verdict(self, metrics: dict[str, float]) -> str:
         """The end of the run at the time reached; empty if it goes on."""
-        if said := self.case.ended(self.settings, self.flow, metrics):
+        said = self.case.ended(self.settings, self.flow, metrics)
+        if said and said.partition(":")[0] not in self.beyond:
             return said
         if self.flow.time >= self.until * (1 - ROUND_OFF):
             return "time"
         return "steps" if self.flow.steps >= self.settings.max_steps else ""
+
+    def implausible(self) -> str:
+        """The end of a flow that does what no fluid does, if the run does not go on beyond that; else nothing."""
+        return "" if FAILED in self.beyond else super().implausible()
 
     def _save(self, path: Path, kept: Kept) -> None:
         state, rows, _ = kept

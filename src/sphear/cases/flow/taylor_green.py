@@ -9,11 +9,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings, kinetic_energy
+from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references.taylor_green import TaylorGreen
 from sphear.schemes.base import SCHEMES
 from sphear.schemes.problem import Problem
+from sphear.simulation.whole_flow import kinetic_energy
 
 Array = np.ndarray[Any, Any]
 

@@ -1,12 +1,13 @@
-"""The base of all observers: rows that grow at even intervals."""
+"""The base of all observers: rows that grow at even intervals, or at chosen times."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
-from sphear.checked import number
+from sphear.checked import number, numbers
 from sphear.errors import SphearError, quoted
 
 if TYPE_CHECKING:
@@ -22,31 +23,33 @@ def whole(value: object) -> bool:
 
 @dataclass
 class Observer:
-    """Looks at a simulation at even intervals, and keeps a row of each look.
+    """Looks at a simulation at even intervals or at chosen times, and keeps a row of each look.
 
     An observer of your own has a method `look`, which returns what is to be kept.
 
     Args:
         every: interval of time between two looks, counted from the start; each is at the first step beyond it.
-        steps: or the interval in steps. Without either, an observer looks at the start and at the end.
+        steps: or the interval in steps. At intervals, and without any, an observer looks at the start and the end too.
+        when: or the times of all looks, each at the step nearest to it, once; none is at the end of its own accord.
 
     Attributes:
         rows: of all looks so far.
 
     Raises:
-        SphearError: an interval is not positive, or both are given.
+        SphearError: an interval is not positive, a time is before the start, or more than one of them is given.
     """
 
-    at_start: ClassVar[bool] = True  # whether it looks before the first step too
+    at_start: bool = field(default=True, init=False, repr=False)  # whether it looks before the first step too
 
     every: float | None = None
     steps: int | None = None
+    when: Sequence[float] | None = None
     rows: list[Any] = field(default_factory=list, init=False, repr=False)
 
     def __post_init__(self) -> None:
         name = type(self).__name__
-        if self.every is not None and self.steps is not None:
-            raise SphearError(f"{name} looks every so much time or so many steps, not both")
+        if sum(given is not None for given in (self.every, self.steps, self.when)) > 1:
+            raise SphearError(f"{name} looks every so much time, every so many steps or at times of its own: give one")
         if self.every is not None:
             every = number(self.every)
             if not every > 0:
@@ -54,6 +57,16 @@ class Observer:
             self.every = every
         if self.steps is not None and not whole(self.steps):
             raise SphearError(f"the interval of {name} is a positive number of steps, not {quoted(self.steps)}")
+        if self.when is not None:
+            times = numbers(self.when)
+            if not times or min(times) < 0:
+                raise SphearError(f"{name} looks at times from the start on, some of them, not at {quoted(self.when)}")
+            self.when = tuple(sorted(times))
+
+    @property
+    def at_end(self) -> bool:
+        """Whether it looks where the run ends, whatever its interval: not where it has times of its own."""
+        return self.when is None
 
     def start(self, run: Run) -> None:
         """Begin to watch a run: called once, before its first step."""
@@ -75,6 +88,8 @@ class Observer:
         flow = run.flow
         if self.steps is not None:
             return self.steps - flow.steps % self.steps
+        if self.when is not None:
+            return next((step - flow.steps for step in self._chosen(run) if step > flow.steps), math.inf)
         if self.every is None:
             return math.inf
         step = flow.time_step
@@ -86,10 +101,17 @@ class Observer:
         flow = run.flow
         if self.steps is not None:
             return flow.steps % self.steps == 0
+        if self.when is not None:
+            return flow.steps in self._chosen(run)
         if self.every is None:
             return False
         now, before = flow.time + ROUNDING * flow.time_step, flow.time - (1 - ROUNDING) * flow.time_step
         return math.floor(now / self.every) > math.floor(before / self.every)
+
+    def _chosen(self, run: Run) -> list[int]:
+        """The steps nearest to the times of its own."""
+        assert self.when is not None
+        return [round(time / run.flow.time_step) for time in self.when]
 
 
 def check_observer(observer: object) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +21,8 @@ class Call(Observer):
         function: of the simulation.
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
+        at_start: whether to look before the first step too.
 
     Raises:
         SphearError: it is no function.
@@ -30,14 +32,21 @@ class Call(Observer):
         >>> observer = sphear.Call(lambda simulation: simulation.velocities.max(), every=0.1)
     """
 
-    at_start = False
-
     function: Callable[[Any], Any] | None = None
 
-    def __init__(self, function: Callable[[Any], Any], *, every: float | None = None, steps: int | None = None) -> None:
+    def __init__(
+        self,
+        function: Callable[[Any], Any],
+        *,
+        every: float | None = None,
+        steps: int | None = None,
+        when: Sequence[float] | None = None,
+        at_start: bool = False,
+    ) -> None:
         if not callable(function):
             raise SphearError(f"{type(self).__name__} calls a function of the simulation, not {quoted(function)}")
-        self.function, self.every, self.steps, self.rows = function, every, steps, []
+        self.function, self.every, self.steps, self.when, self.rows = function, every, steps, when, []
+        self.at_start = at_start
         super().__post_init__()
 
     def look(self, run: Run) -> Any:
@@ -54,6 +63,8 @@ class StopWhen(Call):
         function: of the simulation.
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
+        at_start: whether to look before the first step too.
 
     Example:
         >>> import sphear

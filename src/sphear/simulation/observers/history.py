@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sphear.schemes.energy import kinetic_energy
 from sphear.simulation.observers.base import Observer
+from sphear.simulation.whole_flow import greatest_speed, kinetic_energy
 
 if TYPE_CHECKING:
     from sphear.simulation.run import Run
@@ -23,22 +23,22 @@ class History(Observer):
     Args:
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
 
     Example:
         >>> import sphear
         >>> sphear.History(every=0.1)
-        History(every=0.1, steps=None)
+        History(every=0.1, steps=None, when=None)
     """
 
     def look(self, run: Run) -> dict[str, float]:
         """A row of numbers by name."""
         flow = run.flow
-        mass = flow.problem.density * flow.problem.spacing ** flow.velocities.shape[1]
         return {
             "time": flow.time,
             "steps": flow.steps,
-            "kinetic_energy": kinetic_energy(mass, flow.velocities),
-            "greatest_speed": float(np.sqrt((flow.velocities**2).sum(axis=1).max())),
+            "kinetic_energy": kinetic_energy(flow),
+            "greatest_speed": greatest_speed(flow),
             **(flow.metrics() if flow.steps else {}),
         }
 

@@ -27,6 +27,7 @@ class Probe(Observer):
         point: (2,).
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
 
     Attributes:
         rows: of every look, (time, velocity (2,)).
@@ -42,8 +43,15 @@ class Probe(Observer):
 
     point: tuple[float, ...] = ()
 
-    def __init__(self, point: Sequence[float], *, every: float | None = None, steps: int | None = None) -> None:
-        self.point, self.every, self.steps, self.rows = numbers(point), every, steps, []
+    def __init__(
+        self,
+        point: Sequence[float],
+        *,
+        every: float | None = None,
+        steps: int | None = None,
+        when: Sequence[float] | None = None,
+    ) -> None:
+        self.point, self.every, self.steps, self.when, self.rows = numbers(point), every, steps, when, []
         super().__post_init__()
         if len(self.point) != 2:
             raise SphearError(f"a probe stands at a point of two numbers, not at {quoted(point)}")

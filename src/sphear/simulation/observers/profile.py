@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,8 @@ class Profile(Observer):
         stations: how many, wall to wall.
         every: interval of time between two looks; without one, the profile at the end.
         steps: or the interval in steps.
+        when: or the times of all looks.
+        at_start: whether to look before the first step too.
 
     Attributes:
         at: coordinates along the line of the stations that lie in the fluid, (stations,), in lengths.
@@ -47,8 +50,6 @@ class Profile(Observer):
         >>> sphear.Profile("u", x=0.5).stations
         65
     """
-
-    at_start = False
 
     component: str = "u"
     x: float | None = None
@@ -64,9 +65,11 @@ class Profile(Observer):
         stations: int = 65,
         every: float | None = None,
         steps: int | None = None,
+        when: Sequence[float] | None = None,
+        at_start: bool = False,
     ) -> None:
         self.component, self.x, self.y, self.stations = component, x, y, stations
-        self.every, self.steps, self.rows = every, steps, []
+        self.every, self.steps, self.when, self.rows, self.at_start = every, steps, when, [], at_start
         self.at: Array = np.empty(0)
         super().__post_init__()
         if component not in COMPONENTS:

@@ -35,11 +35,12 @@ class Snapshot(NamedTuple):
 
 @dataclass
 class Snapshots(Observer):
-    """Copies of all particles, at the start and at every look, as `rows` of `Snapshot`.
+    """Copies of all particles at every look, as `rows` of `Snapshot`.
 
     Args:
         every: interval of time between two looks.
         steps: or the interval in steps.
+        when: or the times of all looks.
 
     Example:
         >>> import sphear

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from sphear.studies.basa2009.models import CORRECTIONS, MODELS
 from sphear.sweeps import Run, plan
 
-TERMS = ("takeda", "two_pass", "violeau", "cleary_4.24", "morris")
-CORRECTIONS = ("none", "shepard", "bonet_lok")
+TERMS = tuple(MODELS.values())
 UNTIL = {100.0: 20.0, 1000.0: 80.0}
 PARTICLES = 50  # a side
 

@@ -1,46 +1,50 @@
-"""Channels driven by hand: from one chosen time to the next, and beyond the steady state."""
+"""Channels from rest, observed at chosen times, beyond the steady state and whatever their errors."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.chosen import flow_settings
 from sphear.cases.flow.poiseuille import POISEUILLE, reference
-from sphear.schemes.flow import Flow
+from sphear.cases.flow.run import FlowRun
 from sphear.schemes.settings import FlowSettings
+from sphear.simulation.observers import Observer
+from sphear.studies.rows import significant
+
+BROKE_DOWN = "failed: "
 
 
-def channel(settings: FlowSettings) -> Flow:
-    """A channel at rest."""
-    return Flow(POISEUILLE.problem(settings), settings)
+def channel(**own: Any) -> FlowSettings:
+    """The settings of the paper's channel, some of one's own before them."""
+    settings = flow_settings(POISEUILLE, own, "basa2009")
+    assert isinstance(settings, FlowSettings)
+    return settings
 
 
-def _settings(flow: Flow) -> FlowSettings:
-    assert isinstance(flow.settings, FlowSettings)
-    return flow.settings
+def seconds(settings: Settings, times: Iterable[float]) -> list[float]:
+    """Times t* (eq. 39) in those of the flow."""
+    return [time * POISEUILLE.time_unit(settings) for time in times]
 
 
-def advance_to(flow: Flow, time: float) -> None:
-    """Advance to the step nearest to a time t* (eq. 39); not back.
-
-    Raises:
-        FlowFailure: the flow broke down on the way.
-    """
-    unit = POISEUILLE.time_unit(_settings(flow))
-    flow.advance(max(0, round((time * unit - flow.time) / flow.time_step)))
+def advanced(settings: FlowSettings, *observers: Observer, case: FlowCase = POISEUILLE) -> FlowRun:
+    """A channel that has been advanced to its time or until it broke down."""
+    return FlowRun(case, settings, observers=observers, beyond=("steady", "failed")).run()
 
 
-def reached(flow: Flow) -> float:
+def reached(run: FlowRun) -> float:
     """t* (eq. 39)."""
-    return flow.time / POISEUILLE.time_unit(_settings(flow))
+    return run.flow.time / run.unit
 
 
-def deviation(flow: Flow) -> np.ndarray[Any, Any]:
+def deviation(run: FlowRun) -> np.ndarray[Any, Any]:
     """(u - U) / U of each particle."""
-    exact = reference(_settings(flow)).velocity(flow.positions[:, 1], flow.time)
-    return np.asarray(flow.velocities[:, 0] / exact - 1.0)
+    exact = reference(run.settings).velocity(run.flow.positions[:, 1], run.flow.time)
+    return np.asarray(run.flow.velocities[:, 0] / exact - 1.0)
 
 
 def root_mean_square(values: ArrayLike) -> float:
@@ -49,13 +53,9 @@ def root_mean_square(values: ArrayLike) -> float:
     return found if np.isfinite(found) else np.inf
 
 
-def points(flow: Flow) -> dict[str, list[float]]:
-    """y and u / U0 of all particles, to four digits, and each point once."""
-    scaled = flow.velocities[:, 0] / reference(_settings(flow)).centreline_velocity
-    rounded = {(round(y, 4), significant(u, 4)) for y, u in zip(flow.positions[:, 1], scaled, strict=True)}
-    return {"y": [y for y, _ in sorted(rounded)], "u": [u for _, u in sorted(rounded)]}
-
-
-def significant(value: float, digits: int = 5) -> float:
-    """A number as it is kept."""
-    return float(f"{value:.{digits}g}")
+def points(run: FlowRun) -> dict[str, Any]:
+    """The time, and y and u / U0 of all particles, to four digits, each point once."""
+    scaled = run.flow.velocities[:, 0] / reference(run.settings).centreline_velocity
+    heights = run.flow.positions[:, 1]
+    rounded = sorted({(round(y, 4), significant(u, 4)) for y, u in zip(heights, scaled, strict=True)})
+    return {"time": significant(reached(run)), "y": [y for y, _ in rounded], "u": [u for _, u in rounded]}

@@ -8,12 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from sphear.cases.flow.poiseuille import POISEUILLE
-from sphear.schemes.base import FlowFailure
-from sphear.schemes.flow import Flow
+from sphear.cases.flow.base import Settings
+from sphear.cases.flow.poiseuille import POISEUILLE, Poiseuille
+from sphear.cases.flow.run import FlowRun
+from sphear.schemes.base import FlowInTime
+from sphear.schemes.problem import Problem
 from sphear.schemes.settings import FlowSettings
-from sphear.studies.basa2009.channel import reached
-from sphear.studies.basa2009.channel import significant as kept
+from sphear.simulation.observers import Call, StopWhen
+from sphear.studies.basa2009.channel import BROKE_DOWN, advanced, reached
+from sphear.studies.rows import significant
 
 Array = np.ndarray[Any, Any]
 
@@ -21,33 +24,39 @@ FITTED = (1e-11, 1e-2)  # drifts, in spacings, between which growth is fitted: b
 INTERVAL = 0.5  # t* times Re between two outputs
 
 
+class Disordered(Poiseuille):
+    """A channel whose particles are moved at the start, each coordinate by as much at most.
+
+    Args:
+        disorder: in spacings.
+    """
+
+    def __init__(self, disorder: float) -> None:
+        self.disorder = disorder
+
+    def problem(self, settings: Settings) -> Problem:
+        """That of the channel, its particles moved."""
+        problem = super().problem(settings)
+        moved = np.random.default_rng(0).uniform(-1, 1, problem.positions.shape) * self.disorder * problem.spacing
+        return replace(problem, positions=problem.positions + moved)
+
+
 def drifting(settings: FlowSettings, disorder: float) -> dict[str, Any]:
     """Advance until the flow fails or has made all steps, the steady state notwithstanding."""
-    problem = POISEUILLE.problem(settings)
-    moved = np.random.default_rng(0).uniform(-1, 1, problem.positions.shape) * disorder * problem.spacing
-    flow = Flow(replace(problem, positions=problem.positions + moved), settings)
-    every = max(1, round(INTERVAL / settings.reynolds * POISEUILLE.time_unit(settings) / flow.time_step))
-    start, end = heights_by_row(flow), ""
-    times, errors, energy, heights = [], [], [], []
-    while not end:
-        try:
-            flow.advance(min(every, settings.max_steps - flow.steps))
-        except FlowFailure as failure:
-            end = str(failure)
-            break
-        found = POISEUILLE.metrics(settings, flow)
-        times.append(kept(reached(flow)))
-        errors.append(kept(found["rms_error"]))
-        energy.append(kept(found["kinetic_energy"]))
-        heights.append(heights_by_row(flow))
-        judged = POISEUILLE.ended(settings, flow, found) or ""
-        end = judged if judged.startswith("failed") else "steps" if flow.steps >= settings.max_steps else ""
-    apart = drifts(np.array(heights), start, problem.spacing)
+    case = Disordered(disorder)
+    step = FlowRun(case, settings).flow.time_step
+    every = max(1, round(INTERVAL / settings.reynolds * POISEUILLE.time_unit(settings) / step))
+    observed, failing = Call(_observed, steps=every, at_start=True), StopWhen(_failure, steps=every)
+    run = advanced(settings, observed, failing, case=case)
+    (*_, start), *rows = observed.rows
+    times, errors, energy, heights = (list(column) for column in zip(*rows, strict=True))
+    apart = drifts(np.array(heights), start, run.flow.problem.spacing)
     row = apart.pop("row")
+    judged = observed.rows[-1][0] == significant(reached(run))
     return {
-        "end": end,
-        "failed": end != "steps",
-        "steps": flow.steps,
+        "end": run.end if judged else run.end.removeprefix(BROKE_DOWN),
+        "failed": run.failed,
+        "steps": run.flow.steps,
         "row_from_wall": row,
         **growth(np.array(times), np.array(apart["largest"])),
         "times": times,
@@ -57,7 +66,25 @@ def drifting(settings: FlowSettings, disorder: float) -> dict[str, Any]:
     }
 
 
-def heights_by_row(flow: Flow) -> Array:
+def _observed(run: FlowRun) -> tuple[float, float, float, Array] | None:
+    """t*, the RMS error, the kinetic energy and the heights; None of a flow that broke down."""
+    if run.failed:
+        return None
+    found = POISEUILLE.metrics(run.settings, run.flow)
+    numbers = (reached(run), found["rms_error"], found["kinetic_energy"])
+    time, error, energy = map(significant, numbers)
+    return time, error, energy, heights_by_row(run.flow)
+
+
+def _failure(run: FlowRun) -> str:
+    """How the channel has failed by the paper's rule; empty where it has not, or broke down."""
+    if run.failed:
+        return ""
+    said = POISEUILLE.ended(run.settings, run.flow, POISEUILLE.metrics(run.settings, run.flow)) or ""
+    return said if said.startswith(BROKE_DOWN) else ""
+
+
+def heights_by_row(flow: FlowInTime) -> Array:
     """(n, n): y of each particle, the columns being the rows along the channel at the start."""
     n = round(math.sqrt(flow.count))
     return flow.positions[:, 1].reshape(n, n).copy()
@@ -75,10 +102,10 @@ def drifts(heights: Array, start: Array, spacing: float) -> dict[str, Any]:
     together = np.abs(heights.mean(axis=1) - start.mean(axis=0)).max(axis=1) / spacing
     return {
         "row": min(row, heights.shape[2] - 1 - row),
-        "largest": [kept(x) for x in between.max(axis=(1, 2))],
-        "median": [kept(x) for x in np.median(between, axis=(1, 2))],
-        "pair": [kept(x) for x in between[:, pair, row]],
-        "together": [kept(x) for x in together],
+        "largest": [significant(x) for x in between.max(axis=(1, 2))],
+        "median": [significant(x) for x in np.median(between, axis=(1, 2))],
+        "pair": [significant(x) for x in between[:, pair, row]],
+        "together": [significant(x) for x in together],
     }
 
 
@@ -90,6 +117,6 @@ def growth(times: Array, drift: Array) -> dict[str, float | None]:
     x, y = times[chosen], np.log(drift[chosen])
     rate, offset = np.polyfit(x, y, 1)
     return {
-        "growth": kept(rate, 4),
-        "explained": kept(1 - float(((y - rate * x - offset) ** 2).sum() / ((y - y.mean()) ** 2).sum()), 6),
+        "growth": significant(rate, 4),
+        "explained": significant(1 - float(((y - rate * x - offset) ** 2).sum() / ((y - y.mean()) ** 2).sum()), 6),
     }

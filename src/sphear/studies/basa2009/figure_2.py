@@ -9,74 +9,79 @@ import numpy as np
 from sphear.cases.flow.poiseuille import FAILED, HALF_WIDTH, POISEUILLE, reference
 from sphear.operators import arguments
 from sphear.results.table import Column, Table
-from sphear.schemes.base import FlowFailure
-from sphear.schemes.presets import PRESETS
 from sphear.schemes.settings import FlowSettings
-from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
-from sphear.studies.basa2009.channel import significant as kept
+from sphear.simulation.observers import Call, StopWhen
+from sphear.studies.basa2009.channel import (
+    BROKE_DOWN,
+    advanced,
+    channel,
+    deviation,
+    points,
+    reached,
+    root_mean_square,
+    seconds,
+)
 from sphear.studies.basa2009.lattice import sliding_growth
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from sphear.cases.flow.run import FlowRun
 
 CLAIM = (
     "at Re = 0.3 the compressible channel of model E develops critical instabilities without pressure reduction, where"
     " shear has disturbed the particles most, and none with it"
 )
 REYNOLDS, AT_REST = 0.3, 1e-6  # of the paper; so slow that nothing is disturbed
+STEADY = 28.0  # t*, from which on the flow is steady
 LOST = 10.0  # RMS error at which a run is given up
 PROFILES = {
     "none": (0.01, 0.02, 0.03, 0.04),
-    "mean": (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 28.0),
-    "hydrostatic": (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 28.0),
+    "mean": (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, STEADY),
+    "hydrostatic": (0.05, 0.1, 0.2, 0.5, 1.0, 2.0, STEADY),
 }
 
 
 def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     """The runs, one after the other: each takes less than a minute."""
     plan = [("none", REYNOLDS), ("mean", REYNOLDS), ("hydrostatic", REYNOLDS), ("none", AT_REST)]
-    resolution, until = (10, 0.5) if quick else (20, 28.0)
+    resolution, until = (10, 0.5) if quick else (20, STEADY)
     runs = []
     for reduction, reynolds in plan[:2] if quick else plan:
         progress(f"pressure reduction {reduction}, Re = {reynolds:g}")
-        own = {"equation_of_state": "ideal_gas", "pressure_reduction": reduction}
-        settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own}, reynolds=reynolds, resolution=resolution)
-        runs.append({"pressure_reduction": reduction, "reynolds": reynolds, **_run(settings, until)})
+        about: dict[str, Any] = {"pressure_reduction": reduction, "reynolds": reynolds}
+        settings = channel(**about, equation_of_state="ideal_gas", resolution=resolution, until=until)
+        runs.append({**about, **_run(settings, until)})
     return {"viscosity": "morris", "correction": "none", "resolution": resolution, "until": until, "runs": runs}
 
 
 def _run(settings: FlowSettings, until: float) -> dict[str, Any]:
     """Errors at times that grow by a twentieth, and profiles at the chosen ones."""
-    flow = channel(settings)
     shown = [time for time in PROFILES[settings.pressure_reduction] if time <= until]
-    times, errors, profiles, failed, row, end = [], [], [], None, None, "steady" if until >= 28 else "time"
-    for time in sorted({*shown, *np.geomspace(0.002, until, 196).tolist()}):
-        try:
-            advance_to(flow, time)
-        except FlowFailure as failure:
-            end = str(failure)
-            break
-        off = deviation(flow)
-        times.append(kept(reached(flow)))
-        errors.append(kept(root_mean_square(off)))
-        if errors[-1] >= FAILED and failed is None:
-            failed = times[-1]
-            row = float(np.floor((HALF_WIDTH - abs(flow.positions[np.abs(off).argmax(), 1])) / flow.problem.spacing))
-        if time in shown:
-            profiles.append({"time": times[-1], **points(flow)})
-        if errors[-1] >= LOST:
-            end = f"RMS error of {LOST:.0%}"
-            break
+    looks = seconds(settings, {*shown, *np.geomspace(0.002, until, 196).tolist()})
+    observed, profiles = Call(_errors, when=looks), Call(points, when=seconds(settings, shown))
+    given_up = StopWhen(lambda _: observed.rows[-1][1] >= LOST and f"RMS error of {LOST:.0%}", when=looks)
+    end = advanced(settings, observed, profiles, given_up).end
+    times, errors, _ = (list(column) for column in zip(*observed.rows, strict=True))
+    failed, row = next(((time, row) for time, error, row in observed.rows if error >= FAILED), (None, None))
     return {
         "failure_time": failed,
         "row_from_wall": row,
         "growth": _growth(np.array(times), np.array(errors)) if failed is not None else None,
-        "end": end,
+        "end": "steady" if end == "time" and until >= STEADY else end.removeprefix(BROKE_DOWN),
         "times": times,
         "errors": errors,
-        "profiles": profiles,
+        "profiles": profiles.rows,
     }
+
+
+def _errors(run: FlowRun) -> tuple[float, float, float]:
+    """t*, the RMS error, and the row, counted from a wall, of the particle that is most off."""
+    off, flow = deviation(run), run.flow
+    most = HALF_WIDTH - abs(flow.positions[np.abs(off).argmax(), 1])
+    return significant(reached(run)), significant(root_mean_square(off)), float(np.floor(most / flow.problem.spacing))
 
 
 def _growth(times: Any, errors: Any) -> float | None:
@@ -84,7 +89,7 @@ def _growth(times: Any, errors: Any) -> float | None:
     between = (errors >= FAILED) & (errors <= LOST)
     if not (errors >= LOST).any() or between.sum() < 3:
         return None
-    return kept(np.polyfit(times[between], np.log(errors[between]), 1)[0], 3)
+    return significant(float(np.polyfit(times[between], np.log(errors[between]), 1)[0]), 3)
 
 
 def present(data: dict[str, Any]) -> StudyResult:

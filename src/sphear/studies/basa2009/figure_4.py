@@ -8,15 +8,25 @@ import numpy as np
 
 from sphear.cases.flow.poiseuille import HALF_WIDTH, POISEUILLE, reference
 from sphear.results.table import Column, Table
-from sphear.schemes.base import FlowFailure
-from sphear.schemes.presets import PRESETS
 from sphear.schemes.settings import FlowSettings
-from sphear.studies.basa2009.channel import advance_to, channel, deviation, points, reached, root_mean_square
-from sphear.studies.basa2009.channel import significant as kept
+from sphear.simulation.observers import Call
+from sphear.studies.basa2009.channel import (
+    BROKE_DOWN,
+    advanced,
+    channel,
+    deviation,
+    points,
+    reached,
+    root_mean_square,
+    seconds,
+)
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import significant
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from sphear.cases.flow.run import FlowRun
 
 CLAIM = (
     "at start-up mirroring the velocity is the worst treatment of a wall and extrapolation is good; later they are"
@@ -40,31 +50,31 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     for viscosity, correction, name, on_wall in plan[:2] if quick else plan:
         progress(f"{viscosity}, {name}{', wall particles' if on_wall else ''}")
         about = {"viscosity": viscosity, "correction": correction, "continuation": name, "wall_particles": on_wall}
-        own = {**about, "equation_of_state": "ideal_gas"}
-        settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own}, resolution=resolution)
+        settings = channel(**about, equation_of_state="ideal_gas", resolution=resolution, until=times[-1])
         runs.append({**about, **_run(settings, times)})
     return {"reynolds": settings.reynolds, "resolution": resolution, "shown": SHOWN, "near": NEAR, "runs": runs}
 
 
 def _run(settings: FlowSettings, times: tuple[float, ...]) -> dict[str, Any]:
     """Errors near the walls, over the channel and of the row at the wall, and the profile at `SHOWN`."""
-    flow = channel(settings)
-    found: dict[str, Any] = {"times": [], "near": [], "all": [], "first_row": [], "end": ""}
-    for time in times:
-        try:
-            advance_to(flow, time)
-        except FlowFailure as failure:
-            found["end"] = str(failure)
-            break
-        off = deviation(flow)
-        distance = (HALF_WIDTH - np.abs(flow.positions[:, 1])) / flow.problem.spacing
-        found["times"].append(kept(reached(flow)))
-        found["near"].append(kept(root_mean_square(off[distance < NEAR])))
-        found["all"].append(kept(root_mean_square(off)))
-        found["first_row"].append(kept(float(off[distance < 1].mean())))
-        if time == SHOWN:
-            found["profile"] = {"time": found["times"][-1], **points(flow)}
-    return found
+    observed, profile = Call(_errors, when=seconds(settings, times)), Call(points, when=seconds(settings, [SHOWN]))
+    run = advanced(settings, observed, profile)
+    found = {name: [row[name] for row in observed.rows] for name in ("times", "near", "all", "first_row")}
+    end = run.end.removeprefix(BROKE_DOWN) if run.failed else ""
+    return {**found, "end": end, **({"profile": profile.rows[0]} if profile.rows else {})}
+
+
+def _errors(run: FlowRun) -> dict[str, float]:
+    """t*, and the errors then."""
+    off, flow = deviation(run), run.flow
+    distance = (HALF_WIDTH - np.abs(flow.positions[:, 1])) / flow.problem.spacing
+    found = {
+        "times": reached(run),
+        "near": root_mean_square(off[distance < NEAR]),
+        "all": root_mean_square(off),
+        "first_row": float(off[distance < 1].mean()),
+    }
+    return {name: significant(value) for name, value in found.items()}
 
 
 def at(run: dict[str, Any], what: str, time: float) -> float:

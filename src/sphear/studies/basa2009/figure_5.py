@@ -9,18 +9,12 @@ from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from sphear.results.table import Column, Table
-from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS, TERMS, best_runs, runs
-from sphear.studies.basa2009.robustness_results import (
-    Row,
-    entries,
-    error_at,
-    highest_steady,
-    outcome,
-    percent,
-    select,
-)
+from sphear.studies.basa2009.models import CORRECTIONS, LEVELS
+from sphear.studies.basa2009.robustness import EQUATIONS, ERROR_REYNOLDS, TERMS, best_runs, runs
+from sphear.studies.basa2009.robustness_results import entries, error_at, highest_steady, outcome, percent
 from sphear.studies.kept import swept
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import Row, select
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +24,6 @@ CLAIM = (
     " in both, C is as robust and less accurate; corrections help them little"
 )
 LABELS = {"batchelor_tait": "weakly compressible", "ideal_gas": "compressible"}
-LEVELS = {"none": "no correction", "shepard": "level 0", "bonet_lok": "level 1"}
 
 
 def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:

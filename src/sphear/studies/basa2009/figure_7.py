@@ -8,7 +8,7 @@ import numpy as np
 
 from sphear.cases.flow.poiseuille import HALF_WIDTH, POISEUILLE, reference
 from sphear.results.table import Column, Table
-from sphear.schemes.presets import PRESETS
+from sphear.studies.basa2009.channel import channel
 from sphear.studies.basa2009.drift import drifting
 from sphear.studies.result import Agreement, Progress, StudyResult
 
@@ -31,8 +31,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     runs = []
     for reynolds, disorder in plan:
         progress(f"Re = {reynolds:g}{f', disordered by {disorder:g} dx' if disorder else ''}")
-        own = {"viscosity": "violeau", "reynolds": reynolds, "resolution": resolution}
-        settings = POISEUILLE.explicit(**{**PRESETS["basa2009"], **own})
+        settings = channel(viscosity="violeau", reynolds=reynolds, resolution=resolution)
         runs.append({"reynolds": reynolds, "disorder": disorder, **drifting(settings, disorder)})
     return {"viscosity": "violeau", "correction": "none", "resolution": resolution, "runs": runs}
 

@@ -13,6 +13,7 @@ from sphear.cases.flow.run import FlowRun
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.cavity import PARTICLES, UNTIL
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import failed
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -87,8 +88,7 @@ def present(data: dict[str, Any]) -> StudyResult:
         f" {distance:.3f} from Ghia's steady ({row['ghia_x']:.3f}, {row['ghia_y']:.3f})"
         for row, distance in zip(rows, off, strict=True)
     )
-    broke = any(str(row["end"]).startswith("failed") for row in rows)
-    agrees: Agreement = "no" if broke else "yes" if np.max(off) < 0.03 else "partly"
+    agrees: Agreement = "no" if any(map(failed, rows)) else "yes" if np.max(off) < 0.03 else "partly"
     columns = (
         Column("reynolds", "Re", "g"), Column("time", "t", ".3g"), Column("end", "end"), Column("x", "x", ".3f"),
         Column("y", "y", ".3f"), Column("ghia_x", "Ghia's x", ".3f"), Column("ghia_y", "Ghia's y", ".3f"),

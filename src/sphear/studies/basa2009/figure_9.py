@@ -7,17 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from sphear.references.cavity import MAC_TIMES, mac, openfoam
 from sphear.results.table import Column, Table
-from sphear.studies.basa2009.cavity_results import (
-    LEVELS,
-    Row,
-    compute,
-    corrections,
-    failed,
-    how,
-    reynolds_numbers,
-    select,
-)
+from sphear.studies.basa2009.cavity_results import compute, corrections, reynolds_numbers
+from sphear.studies.basa2009.models import LEVELS
 from sphear.studies.result import Agreement, StudyResult
+from sphear.studies.rows import Row, failed, how, select
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

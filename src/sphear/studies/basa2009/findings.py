@@ -8,18 +8,18 @@ from typing import Any
 
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009 import figure_2, figure_4, figure_7, figure_9, figure_10
-from sphear.studies.basa2009.figure_5 import LABELS, LEVELS
-from sphear.studies.basa2009.robustness import CORRECTIONS, EQUATIONS, ERROR_REYNOLDS
-from sphear.studies.basa2009.robustness_results import error_at, highest_steady, percent, select
+from sphear.studies.basa2009.figure_5 import LABELS
+from sphear.studies.basa2009.models import CORRECTIONS, LEVELS, MODELS
+from sphear.studies.basa2009.robustness import EQUATIONS, ERROR_REYNOLDS
+from sphear.studies.basa2009.robustness_results import error_at, highest_steady, percent
 from sphear.studies.kept import kept
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import Row, failed, select
 
 CLAIM = "ten findings, of sections 6.1.1 to 6.2 and 7"
 PAPER = "basa2009"
-Rows = Sequence[dict[str, Any]]
+Rows = Sequence[Row]
 Said = tuple[str, Agreement]
-
-MODELS = {"A": "takeda", "B": "two_pass", "C": "violeau", "D": "cleary_4.24", "E": "morris"}
 
 
 def reach(rows: Rows, model: str, correction: str) -> str:
@@ -100,7 +100,7 @@ def _little_help(rows: Rows) -> Said:
 
 
 def _cavity(rows: Rows) -> Said:
-    finished = [row for row in rows if not str(row["end"]).startswith("failed")]
+    finished = [row for row in rows if not failed(row)]
     best = {
         reynolds: min(select(finished, reynolds=reynolds), key=figure_10.deviation, default=None)
         for reynolds in (100.0, 1000.0)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from sphear.studies.basa2009.models import CORRECTIONS
 from sphear.sweeps import Run, plan
 
 TERMS = ("takeda", "two_pass", "violeau", "cleary", "cleary_4.24", "cleary_4.96333", "morris")
-CORRECTIONS = ("none", "shepard", "bonet_lok")
 EQUATIONS = ("batchelor_tait", "ideal_gas")
 REYNOLDS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10_000.0)
 ERROR_REYNOLDS = 0.5  # of the plots of the error against time

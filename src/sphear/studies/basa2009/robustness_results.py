@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 from sphear.cases.flow import FLOWS
 from sphear.cases.flow.poiseuille import HALF_WIDTH, threshold
 from sphear.studies.basa2009.robustness import ERROR_REYNOLDS
+from sphear.studies.kept import in_common
+from sphear.studies.rows import Row, significant
 
 if TYPE_CHECKING:
     from sphear.sweeps import SweepResult
 
 SWEPT = ("equation_of_state", "correction", "viscosity", "reynolds")
-
-Row = dict[str, Any]
 
 
 def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
@@ -26,11 +26,9 @@ def entries(results: Sequence[SweepResult]) -> dict[str, Any]:
         row |= {"end": result.end, "time": _end(result), "steps": result.metrics["steps"]}
         row["rms_error"] = result.metrics["rms_error"]
         if row["reynolds"] == ERROR_REYNOLDS:
-            row["history"] = [[_short(step["time"]), _short(step["rms_error"])] for step in result.history]
+            row["history"] = [[significant(step[name], 4) for name in ("time", "rms_error")] for step in result.history]
         found.append(row)
-    derived = ("sound_speed", "time_step", "kinematic_viscosity", "until", "force", "threads")
-    common = {key: value for key, value in results[0].settings.items() if key not in (*SWEPT, *derived)}
-    return {"settings": common, "runs": found}
+    return {"settings": in_common(results, SWEPT), "runs": found}
 
 
 def _end(result: SweepResult) -> float:
@@ -40,22 +38,13 @@ def _end(result: SweepResult) -> float:
     if result.failed:
         for row in result.history:
             if row["rms_error"] is None or row["rms_error"] >= threshold(row["time"] * unit, spacing):
-                return float(f"{row['time']:.4g}")
-    return float(f"{result.metrics['time']:.4g}")
-
-
-def _short(value: float | None) -> float | None:
-    return None if value is None else float(f"{value:.4g}")
+                return significant(float(row["time"]), 4)
+    return significant(float(result.metrics["time"]), 4)
 
 
 def outcome(row: Row) -> str:
     """The end of a run: "steady", "failed" or "steps"."""
     return str(row["end"]).partition(":")[0]
-
-
-def select(rows: Sequence[Row], **wanted: Any) -> list[Row]:
-    """The rows with these values."""
-    return [row for row in rows if all(row[key] == value for key, value in wanted.items())]
 
 
 def highest_steady(rows: Sequence[Row]) -> float:

@@ -12,9 +12,11 @@ from collections.abc import Collection, Iterable
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from sphear.progress import no_progress
 from sphear.references.zheng2018 import TERMS as PAPER_TERMS
 from sphear.studies.kept import runs_folder, store, swept
-from sphear.studies.result import Progress, no_progress
+from sphear.studies.result import Progress
+from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:
     from sphear.cases.flow import FlowRun
@@ -58,13 +60,11 @@ class Wanted(NamedTuple):
 
     def run(self) -> Run:
         """The run, its settings checked."""
-        from sphear.sweeps import plan
-
         preset = None if self.preset == DEFAULTS else PAPER
         own: dict[str, Any] = {"time_step": TIME_STEP} if preset else {}
         own |= {"shifting": "lind", "shifting_strength": 1.0} if self.preset == SHIFTED else {}
         named = {key: getattr(self, key) for key in ("viscosity", "resolution", "reynolds", "until")}
-        return plan(self.case, {}, {"scheme": "incompressible", **own, **named}, preset=preset)[0]
+        return planned(self.case, {**own, **named}, preset)
 
 
 def wanted(case: str, quick: bool = False) -> list[Wanted]:
@@ -149,22 +149,13 @@ def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection
 def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, going on where it was saved last; fields are kept as profiles."""
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.errors import SphearError
-    from sphear.simulation.saved import forget, recover
+    from sphear.simulation.saved import forget
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
-    if settings.get("threads", 1) is None:
-        settings = {**settings, "threads": 1}
-    chosen_settings = FLOWS[case].settings(**settings)
+    chosen_settings = on_one_thread(case, settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen_settings).key}.npz"
-    run = FlowRun(FLOWS[case], chosen_settings)
-    recover(saved)
-    if saved.exists():
-        try:
-            run.restore(saved)
-        except SphearError:  # of other settings
-            run = FlowRun(FLOWS[case], chosen_settings)
+    run = gone_on_with(lambda: FlowRun(FLOWS[case], chosen_settings), saved)
     run.run(keep=saved)
     forget(saved)
     whole = record(run)

@@ -8,9 +8,10 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from sphear.studies.result import Agreement, StudyResult
+from sphear.studies.rows import select
 from sphear.studies.zheng2018.cavities import DRAWN, REYNOLDS, UNTIL
 from sphear.studies.zheng2018.cavity_magnitude import meshes
-from sphear.studies.zheng2018.cavity_rows import least, papers_u_min, reference, select
+from sphear.studies.zheng2018.cavity_rows import least, papers_u_min, reference
 from sphear.studies.zheng2018.cavity_shown import (
     FOUR,
     NAMES,

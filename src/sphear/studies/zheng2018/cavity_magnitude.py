@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 from sphear.references.cavity import Curve, cavity_cylinder, openfoam
 from sphear.results.table import Column, Table
 from sphear.studies.result import Agreement, StudyResult
+from sphear.studies.rows import Row, failed
 from sphear.studies.zheng2018.cavities import DRAWN, REYNOLDS, UNTIL
-from sphear.studies.zheng2018.cavity_rows import Row, curves, deviations, failed
+from sphear.studies.zheng2018.cavity_rows import curves, deviations
 from sphear.studies.zheng2018.cavity_shown import NAMES, NOTHING, Data, drawn, ended, field_of, joined, main_rows
 
 if TYPE_CHECKING:

@@ -10,9 +10,10 @@ import numpy as np
 
 from sphear.references.cavity import botella_peyret, ghia
 from sphear.studies.result import Agreement, StudyResult
+from sphear.studies.rows import Row, select
 from sphear.studies.zheng2018.cavities import DEFAULTS, DRAWN, REYNOLDS, SLOW_REYNOLDS, UNTIL
 from sphear.studies.zheng2018.cavity_magnitude import LINES, meshes
-from sphear.studies.zheng2018.cavity_rows import Row, curves, select
+from sphear.studies.zheng2018.cavity_rows import curves
 from sphear.studies.zheng2018.cavity_shown import (
     FOUR,
     NAMES,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from statistics import fmean
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from sphear.references.cavity import CavityFlow, Curve, cavity_cylinder, ghia, mac
+from sphear.studies.rows import Row, significant
 from sphear.studies.zheng2018.cavities import (
     DEFAULTS,
     QUICK_SIZES,
@@ -25,8 +26,6 @@ from sphear.studies.zheng2018.cavities import (
 
 if TYPE_CHECKING:
     from sphear.sweeps import SweepResult
-
-Row = dict[str, Any]
 
 SAME_TIME = 2e-3  # two times are equal, relative: a run ends within a step of its time
 WATCHED = ("pressure_iterations", "divergence", "density_deviation", "smallest_distance", "largest_gap")
@@ -76,28 +75,26 @@ def row_of(each: Wanted, result: SweepResult) -> Row:
     usual = _usual(each.case)
     row: Row = {
         "preset": each.preset, "reynolds": each.reynolds, "resolution": each.resolution, "viscosity": each.viscosity,
-        "until": each.until, "end": result.end, "time": _short(last["time"]), "steps": last["steps"],
-        "seconds": _short(result.performance["seconds"], 4), "particles": result.performance["particles"],
+        "until": each.until, "end": result.end, "time": significant(last["time"]), "steps": last["steps"],
+        "seconds": significant(result.performance["seconds"], 4), "particles": result.performance["particles"],
     }  # fmt: skip
-    row |= {name: _short(result.settings[name]) for name in DERIVED}
+    row |= {name: significant(result.settings[name]) for name in DERIVED}
     given = each.run().given
     row["settings"] = {key: given[key] for key, value in usual.items() if given[key] != value}
-    row |= {name: _short(last.get(name)) for name in ("kinetic_energy", "kinetic_energy_error")}
+    row |= {name: significant(last.get(name)) for name in ("kinetic_energy", "kinetic_energy_error")}
     iterations = [step["pressure_iterations"] for step in history if step["pressure_iterations"] is not None]
-    row |= {"iterations_mean": _short(fmean(iterations), 3), "iterations_max": max(iterations)} if iterations else {}
-    row["energy"] = [[_short(step["time"]), _short(step["kinetic_energy"])] for step in history]
+    row |= (
+        {"iterations_mean": significant(fmean(iterations), 3), "iterations_max": max(iterations)} if iterations else {}
+    )
+    row["energy"] = [[significant(step["time"]), significant(step["kinetic_energy"])] for step in history]
     moments = sorted({round(k * (len(history) - 1) / (MOMENTS - 1)) for k in range(MOMENTS)})
-    row["watched"] = {name: [_short(history[k][name], 4) for k in moments] for name in ("time", *WATCHED)}
+    row["watched"] = {name: [significant(history[k][name], 4) for k in moments] for name in ("time", *WATCHED)}
     fields = ("field_", "particles_")
     lines = {name: values for name, values in result.profiles.items() if not name.startswith(fields)}
-    row["profiles"] = {name: [_short(x) for x in values] for name, values in lines.items()}
+    row["profiles"] = {name: [significant(x) for x in values] for name, values in lines.items()}
     if each.preset == DEFAULTS and each.reynolds == REYNOLDS:  # others are not drawn
         row |= {name: values for name, values in result.profiles.items() if name.startswith(fields)}
     return row | scores(each.case, row)
-
-
-def _short(value: float | None, digits: int = 5) -> float | None:
-    return None if value is None else float(f"{value:.{digits}g}")
 
 
 def reference(case: str, reynolds: float, time: float) -> CavityFlow | None:
@@ -167,7 +164,7 @@ def scores(case: str, row: Row) -> Row:
     found: Row = {"u_min": least(mine["u"])}
     known = reference(case, row["reynolds"], row["time"])
     if known is None:
-        return {name: _short(value) for name, value in found.items()}
+        return {name: significant(value) for name, value in found.items()}
     off = {name: deviations(mine[name], curve) for name, curve in (("u", known.u), ("v", known.v))}
     found["u_min_error"] = found["u_min"] - least(known.u)
     for name, each in off.items():
@@ -178,14 +175,4 @@ def scores(case: str, row: Row) -> Row:
         found["paper_err"] = abs(found["u_min"] - papers_u_min(case))
         both = (deviations(mine["u"], paper.u), deviations(mine["v"], paper.v))
         found["paper_deviation"] = fmean(float(each.mean()) for each in both)
-    return {name: _short(value) for name, value in found.items()}
-
-
-def select(rows: Sequence[Row], **values: Any) -> list[Row]:
-    """The rows with these values."""
-    return [row for row in rows if all(row[key] == value for key, value in values.items())]
-
-
-def failed(row: Row) -> bool:
-    """True if the run broke down."""
-    return str(row["end"]).startswith("failed")
+    return {name: significant(value) for name, value in found.items()}

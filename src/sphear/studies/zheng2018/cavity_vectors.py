@@ -11,8 +11,9 @@ from sphear.references.cavity import mac
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.figure_8 import CENTRES, vortex_centre
 from sphear.studies.result import Agreement, StudyResult
+from sphear.studies.rows import Row, failed, how
 from sphear.studies.zheng2018.cavities import DRAWN, REYNOLDS, UNTIL
-from sphear.studies.zheng2018.cavity_rows import WATCHED, Row, failed
+from sphear.studies.zheng2018.cavity_rows import WATCHED
 from sphear.studies.zheng2018.cavity_shown import (
     CYLINDER,
     NAMES,
@@ -33,7 +34,7 @@ STILL = 1e-3  # growth of the energy until the steady state, below which a flow 
 BEFORE = 30.0  # when the energy is compared with that at the end
 
 
-def vectors(data: Data, claim: str, number: int, sizes: tuple[int, ...]) -> StudyResult:
+def vectors(data: Data, claim: str, number: int, *, sizes: tuple[int, ...]) -> StudyResult:
     """The particles' regularity over time, whether the flow is steady, and the vectors."""
     if data["until"] != UNTIL:
         sizes = tuple(data["sizes"])
@@ -100,8 +101,7 @@ def _said(data: Data, size: int, row: Row | None) -> str:
         )
     if line["energy_growth"] is not None:
         parts.append(f"the energy grew by {line['energy_growth']:.2%} since t = {BEFORE:g}")
-    how = f"failed at t = {row['time']:.3g}" if failed(row) else f"t = {row['time']:.3g}"
-    return f"{size} particles a side, {how}: {', '.join(parts)}"
+    return f"{size} particles a side, {how(row)}: {', '.join(parts)}"
 
 
 def _steadiness(data: Data) -> tuple[str, bool]:

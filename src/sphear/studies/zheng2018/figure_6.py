@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from sphear.references.zheng2018 import SIZES, TERMS
 from sphear.studies.result import Agreement, Progress, StudyResult
 from sphear.studies.zheng2018 import table_3
+from sphear.studies.zheng2018.convergence_figures import curves
 from sphear.studies.zheng2018.patch import first, last
 
 if TYPE_CHECKING:
@@ -36,13 +37,8 @@ def run(*, quick: bool, progress: Progress) -> StudyResult:
 def _figure(rows: list[dict[str, Any]]) -> Figure:
     from sphear.results.figure import Convergence, convergence_panels
 
-    def curve(name: str, key: str) -> tuple[list[float], list[float]]:
-        mine = [row for row in rows if row["viscosity"] == name]
-        return [row["particles"] for row in mine], [row[key] for row in mine]
-
-    names = list(TERMS.values())
     panels = [
-        Convergence({name: curve(name, key) for name in names}, label, (2,) if key == "published" else ())
+        Convergence(curves(rows, key), label, (2,) if key == "published" else ())
         for key, label in (("published", "published, s"), ("computed", "computed, s"))
     ]
     return convergence_panels(panels, "particles a side", "Time of one Laplacian (Zheng, Ma & Shao 2018, figure 6)")

@@ -7,8 +7,8 @@ from typing import Any
 
 from sphear.results.table import Column, Table
 from sphear.studies.result import Agreement, Progress, StudyResult
+from sphear.studies.rows import Row, failed, how, select
 from sphear.studies.zheng2018.cavities import UNTIL
-from sphear.studies.zheng2018.cavity_rows import Row, failed, select
 from sphear.studies.zheng2018.cavity_shown import joined, listed
 from sphear.studies.zheng2018.settings_combinations import BY_NAME, LONG_SIZES, READINGS, STATED
 from sphear.studies.zheng2018.settings_figure import figure
@@ -112,7 +112,7 @@ def _table(rows: Sequence[Row]) -> Table:
     lines = [
         {
             **row,
-            "how": f"failed at t = {row['time']:.3g}" if failed(row) else f"t = {row['time']:.3g}",
+            "how": how(row),
             "as_stated": "yes" if row["stated"] else "no",
             "distance": None if failed(row) else row["smallest_distance"],
             "density": None if failed(row) else row["density_deviation"],

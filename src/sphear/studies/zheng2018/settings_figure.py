@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+from sphear.studies.rows import failed
 from sphear.studies.zheng2018.cavities import UNTIL
-from sphear.studies.zheng2018.cavity_rows import failed
 from sphear.studies.zheng2018.settings_combinations import BY_NAME
 
 if TYPE_CHECKING:

@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from sphear.kernels import Kernel
+from sphear.studies.rows import significant
 
 Array = np.ndarray[Any, Any]
 
@@ -82,4 +83,4 @@ def predicted(row: dict[str, Any]) -> float | None:
         return None
     spacing = 1.0 / row["resolution"]
     kernel = arguments.read_kernel(settings["kernel"], settings["h_over_dx"], spacing)
-    return float(f"{growth(kernel, spacing, row['least_pressure'], 1.0 / REYNOLDS):.3g}")
+    return significant(growth(kernel, spacing, row["least_pressure"], 1.0 / REYNOLDS), 3)

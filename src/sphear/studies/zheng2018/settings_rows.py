@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from sphear.progress import no_progress
 from sphear.studies.kept import store, swept
-from sphear.studies.result import Progress, no_progress
+from sphear.studies.result import Progress
+from sphear.studies.rows import Row, significant
 from sphear.studies.zheng2018.cavities import PAPER
 from sphear.studies.zheng2018.cavity_rows import scores
 from sphear.studies.zheng2018.settings_combinations import BY_NAME
@@ -16,8 +18,6 @@ from sphear.studies.zheng2018.settings_runs import CASE, COMPUTE, SCREENED, Trie
 
 if TYPE_CHECKING:
     from sphear.sweeps import Run, SweepResult
-
-Row = dict[str, Any]
 
 SCORES = ("deviation", "u_min", "u_min_error", "paper_err", "kinetic_energy_error")
 CURVE = 40  # moments of the disorder that are kept
@@ -77,20 +77,20 @@ def row_of(each: Tried, result: SweepResult) -> Row:
     """The row to keep of a run."""
     last, history = result.metrics, result.history
     row: Row = {
-        **each._asdict(), "changes": BY_NAME[each.reading].changes, "end": result.end, "time": _short(last["time"]),
-        "reynolds": 1000.0, "seconds": _short(result.performance["seconds"], 3),
+        **each._asdict(), "changes": BY_NAME[each.reading].changes, "end": result.end,
+        "time": significant(last["time"]), "reynolds": 1000.0, "seconds": significant(result.performance["seconds"], 3),
     }  # fmt: skip
-    row |= {name: _short(last.get(name)) for name in ("density_deviation", "smallest_distance", "kinetic_energy")}
+    row |= {name: significant(last.get(name)) for name in ("density_deviation", "smallest_distance", "kinetic_energy")}
     # at the failure itself numbers say nothing
     alive = [step for step in history if step.get("disorder") is not None][: -1 if result.failed else None]
     moments = sorted({round(k * (len(alive) - 1) / (CURVE - 1)) for k in range(CURVE)}) if alive else []
     row["curve"] = {
-        name: [_short(alive[k][key], 4) for k in moments]
+        name: [significant(alive[k][key], 4) for k in moments]
         for name, key in (("time", "time"), ("disorder", "disorder"), ("distance", "smallest_distance"))
     }
     row |= growth_of(alive, each.resolution)
-    row["profiles"] = {name: [_short(x) for x in values] for name, values in result.profiles.items()}
-    row["kinetic_energy_error"] = _short(last.get("kinetic_energy_error"))
+    row["profiles"] = {name: [significant(x) for x in values] for name, values in result.profiles.items()}
+    row["kinetic_energy_error"] = significant(last.get("kinetic_energy_error"))
     row |= {name: value for name, value in scores(CASE, row).items() if name in SCORES}
     return {name: value for name, value in row.items() if name != "profiles" or each.until > SCREENED}
 
@@ -106,10 +106,6 @@ def growth_of(history: list[Row], resolution: int) -> Row:
         return {"growth": None, "least_pressure": None}
     times, values = ([step[name] for step in within] for name in ("time", "disorder"))
     return {
-        "growth": _short(float(np.polyfit(times, np.log(values), 1)[0]), 3),
-        "least_pressure": _short(float(np.median([step["least_pressure"] for step in within])), 3),
+        "growth": significant(float(np.polyfit(times, np.log(values), 1)[0]), 3),
+        "least_pressure": significant(float(np.median([step["least_pressure"] for step in within])), 3),
     }
-
-
-def _short(value: float | None, digits: int = 5) -> float | None:
-    return None if value is None else float(f"{value:.{digits}g}")

@@ -9,8 +9,10 @@ import numpy as np
 from sphear.studies.kept import runs_folder
 from sphear.studies.zheng2018.cavities import PAPER, REYNOLDS, TIME_STEP, UNTIL
 from sphear.studies.zheng2018.settings_combinations import BY_NAME, FINE, LONG, LONG_SIZES, QUICK, READINGS
+from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:
+    from sphear.cases.flow import FlowRun
     from sphear.schemes.incompressible.flow import IncompressibleFlow
     from sphear.sweeps import Run
 
@@ -34,8 +36,6 @@ class Tried(NamedTuple):
 
     def run(self) -> Run:
         """The run, its settings checked."""
-        from sphear.sweeps import plan
-
         settings = {
             "time_step": TIME_STEP,
             **BY_NAME[self.reading].changes,
@@ -43,7 +43,7 @@ class Tried(NamedTuple):
             "resolution": self.resolution,
             "until": self.until,
         }
-        return plan(CASE, {}, {"scheme": "incompressible", **settings}, preset=PAPER)[0]
+        return planned(CASE, settings, PAPER)
 
 
 def tried(quick: bool = False) -> list[Tried]:
@@ -69,35 +69,30 @@ def disorder(flow: IncompressibleFlow) -> float:
     return float(np.sqrt((sums**2).sum(axis=1).mean()) * flow.problem.spacing)
 
 
+def measured(run: FlowRun) -> dict[str, float]:
+    """The disorder and the least pressure."""
+    from sphear.schemes.incompressible.flow import IncompressibleFlow
+
+    assert isinstance(run.flow, IncompressibleFlow)
+    return {"disorder": disorder(run.flow), "least_pressure": float(run.flow.pressure.min())}
+
+
 def compute_reading(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, with the disorder and the least pressure at each output.
 
     It goes on where it was saved last, also by a shorter run of the same settings.
     """
     from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.errors import SphearError
+    from sphear.simulation.saved import forget
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
-    if settings.get("threads", 1) is None:
-        settings = {**settings, "threads": 1}
-    chosen = FLOWS[case].settings(**settings)
+    chosen = on_one_thread(case, settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen.model_copy(update={'until': UNTIL})).key}.npz"
-    run: Any = FlowRun(FLOWS[case], chosen)
-    if saved.exists():
-        try:
-            run.restore(saved)
-        except SphearError:  # of other settings, or further on
-            run = FlowRun(FLOWS[case], chosen)
-
-    def observe(_: str) -> None:
-        flow = run.flow
-        with np.errstate(all="ignore"):
-            run.history[-1] |= {"disorder": disorder(flow), "least_pressure": float(flow.pressure.min())}
-
-    run.run(observe, keep=saved)
+    run = gone_on_with(lambda: FlowRun(FLOWS[case], chosen, measured=measured), saved)
+    run.run(keep=saved)
     if run.end == "time" and chosen.until != UNTIL:
         run.save(saved)
     else:
-        saved.unlink(missing_ok=True)
+        forget(saved)
     return record(run)

@@ -1,0 +1,19 @@
+"""Numbers of a whole flow."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from sphear.schemes import energy
+from sphear.schemes.base import FlowInTime
+
+
+def kinetic_energy(flow: FlowInTime) -> float:
+    """(m / 2) sum_i u_i^2 with m = rho dx^d, a mass by a speed squared; in the plane of a unit of depth."""
+    mass = flow.problem.density * flow.problem.spacing ** flow.velocities.shape[1]
+    return energy.kinetic_energy(mass, flow.velocities)
+
+
+def greatest_speed(flow: FlowInTime) -> float:
+    """max_i |u_i|, a length over a time."""
+    return float(np.sqrt((flow.velocities**2).sum(axis=1).max()))
