@@ -49,7 +49,8 @@ def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None
     """
     scheme = str(changes.get("scheme", next(iter(case.defaults))))
     behind = {} if preset is None else case.preset(preset, scheme)
-    known = case.kind(scheme).model_fields
+    kind = case.kind(scheme)
+    changes, known = kind.flattened(changes), kind.model_fields
     for key in changes:
         if key not in known:
             raise unknown_setting(key, known, scheme)
