@@ -25,7 +25,8 @@ def flow(case: str, /, *, preset: str | None = None, **settings: Unpack[FlowOpti
             given by name go before them. Without one they are the best that were found.
         settings: as `--set` of `sphear run` takes them, such as `scheme`, `viscosity`, `reynolds`, `resolution` and
             `until`; `sphear show case NAME` says what each means, what it may be and what it is by default. Viscous
-            terms, kernels, corrections and equations of state are names or objects.
+            terms, kernels, corrections, equations of state, wall models, shifting and preconditioners are names or
+            objects.
 
     Raises:
         SphearError: there is no such case, preset or setting, or one does not fit the others.
