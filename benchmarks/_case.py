@@ -10,7 +10,7 @@ from _bench import jittered_square
 
 from sphear import Kernel, Morris, Neighbours, NoCorrection, WendlandC2
 from sphear.engine.sweep import Sweep
-from sphear.interactions import Momentum
+from sphear.interactions import PressureForce, Rates, ViscousForce
 
 SUPPORT_OVER_DX = 3.09  # 29 neighbours
 ETA = 0.1  # smoothing lengths
@@ -35,7 +35,10 @@ class Case:
             "mass": np.full(self.count, self.mass),
             "dynamic_viscosity": np.full(self.count, VISCOSITY),
         }
-        self.interaction = Momentum(Morris(eta=ETA), kernel(self.support / 2), NoCorrection())
+        kind, none = kernel(self.support / 2), NoCorrection()
+        self.interaction = Rates(
+            (ViscousForce(Morris(eta=ETA), kind, none), PressureForce(kind, none, "squares", reduced=False))
+        )
         self.neighbours = self.search()
         self.sweep = self.packed()
         self.out = np.empty((self.count, 2))

@@ -32,7 +32,7 @@ def cavity(side: int, **settings: Any) -> FlowInTime:
     return made
 
 
-def unpreconditioned(system: Any, right: Any, guess: Any, name: str, tolerance: float) -> Solution:
+def unpreconditioned(system: Any, right: Any, guess: Any, name: Any, tolerance: float, floor: float) -> Solution:
     """SciPy's BiCGSTAB on the same system from the same guess to the same tolerance, constants taken out as well."""
 
     def times(vector: Any) -> Any:
@@ -48,7 +48,7 @@ def unpreconditioned(system: Any, right: Any, guess: Any, name: str, tolerance: 
     return Solution(values, 0, residual, 0.0, "bicgstab", "none")
 
 
-def free(system: Any, right: Any, guess: Any, name: str, tolerance: float) -> Solution:
+def free(system: Any, right: Any, guess: Any, name: Any, tolerance: float, floor: float) -> Solution:
     """No solve at all: what no solver can be faster than."""
     return Solution(guess, 0, 0.0, 0.0, "none", "none")
 

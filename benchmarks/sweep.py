@@ -1,8 +1,8 @@
 """A sweep over all pairs (pressure and Morris viscosity), and the pair list, against hand-written C++.
 
-The same particles, formula and core: sphear's compiled `Momentum` sweep, and roofline.cpp, which does the same over the
-memory layouts that particle codes use. Both are checked against each other, then timed in turn; of each layout the best
-cell width and number of lanes counts.
+The same particles, formula and core: sphear's compiled sweep of `ViscousForce` and `PressureForce`, that of flows, and
+roofline.cpp, which does the same over the memory layouts that particle codes use. Both are checked against each other,
+then timed in turn; of each layout the best cell width and number of lanes counts.
 
     cell_auto   cells, vectorised by the compiler      csr_gather  pair list, vectorised by the compiler
     cell_vec    cells, explicit vectors                csr_aos     pair list, whole records transposed in registers

@@ -27,6 +27,14 @@ from typing import TYPE_CHECKING
 # isort: off
 if TYPE_CHECKING:
     from sphear.boundaries.conditions import FreeSlip as FreeSlip, NoSlip as NoSlip, Periodic as Periodic
+    from sphear.boundaries.models import (
+        SFDI as SFDI,
+        WALL_MODELS as WALL_MODELS,
+        AdamiDummies as AdamiDummies,
+        MirrorPoints as MirrorPoints,
+        Natural as Natural,
+        WallModel as WallModel,
+    )
     from sphear.boundaries.shapes import (
         Circle as Circle,
         HalfPlane as HalfPlane,
@@ -62,7 +70,10 @@ if TYPE_CHECKING:
         correction as correction,
         equation_of_state as equation_of_state,
         kernel as kernel,
+        preconditioner as preconditioner,
+        shifting_method as shifting_method,
         viscous_term as viscous_term,
+        wall_model as wall_model,
     )
     from sphear.kernels import (
         KERNELS as KERNELS,
@@ -84,9 +95,24 @@ if TYPE_CHECKING:
         viscous_acceleration as viscous_acceleration,
     )
     from sphear import algebra as algebra
+    from sphear.pressure import (
+        PRECONDITIONERS as PRECONDITIONERS,
+        AlgebraicMultigrid as AlgebraicMultigrid,
+        Grid as Grid,
+        Jacobi as Jacobi,
+        Preconditioner as Preconditioner,
+        PressureSystem as PressureSystem,
+    )
     from sphear.schemes.base import FlowFailure as FlowFailure
     from sphear.schemes.incompressible.settings import Incompressible as Incompressible
     from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
+    from sphear.shifting import (
+        SHIFTING as SHIFTING,
+        Lind as Lind,
+        NoShifting as NoShifting,
+        ShiftingMethod as ShiftingMethod,
+        Xu as Xu,
+    )
     from sphear.simulation.fluid import Fluid as Fluid
     from sphear.simulation.observers import (
         Call as Call,
@@ -125,6 +151,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "sphear.boundaries.conditions": ("FreeSlip", "NoSlip", "Periodic"),
+    "sphear.boundaries.models": ("SFDI", "WALL_MODELS", "AdamiDummies", "MirrorPoints", "Natural", "WallModel"),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
     "sphear.cases.flow": ("FlowRun", "flow"),
     "sphear.cases.measured_card": ("MeasuredCard", "measured_card"),
@@ -134,16 +161,22 @@ _HOMES = {
         "EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear",
     ),
     "sphear.errors": ("SphearError", "SphearWarning", "TooFewNeighboursError"),
-    "sphear.extensions.naming": ("correction", "equation_of_state", "kernel", "viscous_term"),
+    "sphear.extensions.naming": (
+        "correction", "equation_of_state", "kernel", "preconditioner", "shifting_method", "viscous_term", "wall_model",
+    ),
     "sphear.kernels": (
         "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2",
         "WendlandC4", "WendlandC6",
     ),
     "sphear.neighbours": ("Domain", "Neighbours"),
     "sphear.operators": ("Particles", "gradient", "interpolate", "laplacian", "viscous_acceleration"),
+    "sphear.pressure": (
+        "PRECONDITIONERS", "AlgebraicMultigrid", "Grid", "Jacobi", "Preconditioner", "PressureSystem",
+    ),
     "sphear.schemes.base": ("FlowFailure",),
     "sphear.schemes.incompressible.settings": ("Incompressible",),
     "sphear.schemes.settings": ("WeaklyCompressible",),
+    "sphear.shifting": ("SHIFTING", "Lind", "NoShifting", "ShiftingMethod", "Xu"),
     "sphear.simulation.fluid": ("Fluid",),
     "sphear.simulation.observers": (
         "Call", "History", "Observer", "Probe", "Profile", "Progress", "Snapshots", "StopWhen",

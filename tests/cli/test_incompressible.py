@@ -119,7 +119,7 @@ WRONG: dict[str, tuple[tuple[str, ...], str]] = {
         ("cavity-cylinder", "--set", "gradient=symmetric"),
         "gradient=symmetric conserves momentum and gradient_correction=renormalised does not: take",
     ),
-    "wall": (("cavity-cylinder", "--set", "walls=sdfi"), "the setting walls should be"),
+    "wall": (("cavity-cylinder", "--set", "walls=sdfi"), "the setting walls is to be a wall model"),
     "preconditioner": (("cavity-cylinder", "--set", "preconditioner=grd"), "no preconditioner named 'grd'"),
     "time step": (("cavity-cylinder", "--set", "time_step=1"), "the time step of 1 is beyond the cfl limit of"),
 }

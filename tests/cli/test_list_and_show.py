@@ -7,22 +7,38 @@ from typing import Any
 
 import pytest
 
-from sphear import CORRECTIONS, KERNELS, VISCOSITY, Morris, __version__
+from sphear import (
+    CORRECTIONS,
+    EQUATIONS_OF_STATE,
+    KERNELS,
+    PRECONDITIONERS,
+    SHIFTING,
+    VISCOSITY,
+    WALL_MODELS,
+    Morris,
+    __version__,
+)
 from sphear.cases.fields import FIELDS
 from sphear.cases.flow import FLOWS
 from sphear.cases.patch_test import PatchTest
 from sphear.names import Registry
-from sphear.pressure import PRECONDITIONERS
 from sphear.studies import ITEMS, PAPERS
 from sphear.viscosity.card import measured
 
 Run = Callable[..., Any]
 
-REGISTRIES: dict[str, Registry[Any]] = {"kernels": KERNELS, "viscosity": VISCOSITY, "corrections": CORRECTIONS}
+REGISTRIES: dict[str, Registry[Any]] = {
+    "kernels": KERNELS,
+    "viscosity": VISCOSITY,
+    "corrections": CORRECTIONS,
+    "equations": EQUATIONS_OF_STATE,
+    "walls": WALL_MODELS,
+    "shifting": SHIFTING,
+    "preconditioners": PRECONDITIONERS,
+}
 STUDIES = [f"{paper} {item}" for paper, items in ITEMS.items() for item in items]
 NAMES = {
     **{kind: list(registry) for kind, registry in REGISTRIES.items()},
-    "preconditioners": list(PRECONDITIONERS),
     "studies": STUDIES,
     "cases": ["patch-test", *FLOWS],
 }
@@ -30,6 +46,9 @@ SINGULAR = {
     "kernel": "kernels",
     "viscous": "viscosity",
     "correction": "corrections",
+    "equation": "equations",
+    "Equation-of-State": "equations",
+    "wall model": "walls",
     "preconditioner": "preconditioners",
     "study": "studies",
     "case": "cases",
@@ -191,17 +210,6 @@ def test_a_flow_is_shown_with_the_settings_of_each_scheme(name: str, sphear: Run
     assert facts["schemes"] == list(FLOWS[name].defaults)
     for scheme in facts["schemes"]:
         assert facts[scheme] == FLOWS[name].settings(scheme=scheme).model_dump(mode="json")
-
-
-@pytest.mark.parametrize("name", list(PRECONDITIONERS))
-def test_a_preconditioner_is_shown_with_its_formula(name: str, sphear: Run) -> None:
-    for spelling in (name, *PRECONDITIONERS.aliases(name)):
-        facts = sphear("show", "preconditioner", spelling, "--json").json()
-        assert (facts["name"], facts["formula"]) == (name, PRECONDITIONERS[name].formula)
-    listed = {
-        entry["name"]: entry["aliases"] for entry in sphear("list", "preconditioners", "--json").json().popitem()[1]
-    }
-    assert listed[name] == PRECONDITIONERS.aliases(name)
 
 
 @pytest.mark.parametrize("arguments", [("--version",), ("--help",), ("-h",), ()])

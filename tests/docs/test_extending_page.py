@@ -29,13 +29,13 @@ def names(monkeypatch: pytest.MonkeyPatch) -> Iterator[dict[str, Any]]:
     for example in EXAMPLES:
         exec(compile(example, "example", "exec", dont_inherit=True), vars(module))
     yield vars(module)
-    for registry in (sphear.VISCOSITY, sphear.KERNELS, sphear.CORRECTIONS):
+    for registry in (sphear.VISCOSITY, sphear.KERNELS, sphear.CORRECTIONS, sphear.SHIFTING):
         for name in set(registry) - registry.published:
             registry.remove(name)
 
 
 def test_the_examples_do_what_the_page_says(names: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
-    assert len(EXAMPLES) == 4
+    assert len(EXAMPLES) == 5
     assert all(len([line for line in example.splitlines() if line]) <= 20 for example in EXAMPLES)
     x, run, values = names["x"], names["run"], X[:, 0] ** 2
     for lap in (names["lap"], names["same"]):
@@ -52,6 +52,11 @@ def test_the_examples_do_what_the_page_says(names: dict[str, Any], capsys: pytes
     weaker = sphear.gradient(X, values, correction="weaker")
     np.testing.assert_allclose(weaker, 0.9 * sphear.gradient(X, values, correction="none"), rtol=1e-12)
     assert np.isfinite(sphear.laplacian(X, values, kernel="quartic_dome")).all()
+    gentle = sphear.Incompressible(shifting="gentle", shifting_strength=0.1)
+    assert gentle.shifting_method == names["Gentle"](strength=0.1)
+    assert gentle.shifting_method.drift(sphear.WendlandC2(1.0), 2.0, 0.5) == sphear.Lind(0.1).drift(
+        sphear.WendlandC2(1.0), 2.0, 0.5
+    )
 
 
 def test_the_kernel_of_the_page_is_one(names: dict[str, Any]) -> None:

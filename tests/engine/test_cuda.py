@@ -9,7 +9,16 @@ import sys
 import pytest
 
 from sphear.corrections import CORRECTIONS, NoCorrection
-from sphear.interactions import Divergence, Gradient, Interpolation, Laplacian, Momentum, NumberDensity
+from sphear.interactions import (
+    Divergence,
+    Gradient,
+    Interpolation,
+    Laplacian,
+    NumberDensity,
+    PressureForce,
+    Rates,
+    ViscousForce,
+)
 from sphear.kernels import KERNELS, CubicSpline
 from sphear.viscosity import VISCOSITY, Morris
 
@@ -56,7 +65,9 @@ def assert_compiles(interaction, dimension, own=()):
 @pytest.mark.parametrize("dimension", [2, 3])
 @pytest.mark.parametrize("name", list(KERNELS))
 def test_every_kernel(name, dimension):
-    assert_compiles(Momentum(Morris(), KERNELS[name](0.1), NoCorrection()), dimension)
+    kernel, none = KERNELS[name](0.1), NoCorrection()
+    forces = ViscousForce(Morris(), kernel, none), PressureForce(kernel, none, "squares", reduced=False)
+    assert_compiles(Rates(forces), dimension)
 
 
 @pytest.mark.parametrize(("term", "correction"), ACCEPTED)

@@ -11,7 +11,7 @@ import sphear.neighbours.neighbours as neighbours_module
 from sphear import CubicSpline, Domain, Monaghan, Morris, Neighbours, NoCorrection, Particles, Violeau, WendlandC2
 from sphear.engine.formula import traced
 from sphear.engine.sweep import sweep
-from sphear.interactions import Gradient, Momentum, NumberDensity, ViscousAcceleration
+from sphear.interactions import Gradient, NumberDensity, PressureForce, Rates, ViscousAcceleration, ViscousForce
 
 KERNEL, NONE = CubicSpline(0.12), NoCorrection()
 
@@ -31,7 +31,7 @@ def fields(count: int, dimension: int) -> dict[str, Any]:
 @pytest.mark.parametrize(
     "interaction",
     [
-        Momentum(Morris(eta=0.1), KERNEL, NONE),
+        Rates((ViscousForce(Morris(eta=0.1), KERNEL, NONE), PressureForce(KERNEL, NONE, "squares", reduced=False))),
         ViscousAcceleration(Monaghan(beta=2.0), KERNEL, NONE),
         Gradient(KERNEL, NONE, True),
         NumberDensity(KERNEL),

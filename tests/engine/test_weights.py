@@ -13,7 +13,7 @@ from sphear.engine.weights import pair_weights
 from sphear.interactions import Laplacian
 from sphear.interactions.laplacian_weights import LaplacianWeights
 from sphear.neighbours.sparse import sparse_rows
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.viscosity import VISCOSITY
 from sphear.viscosity.morris import Morris
 from tests.particles import Array, all_pairs, box, jittered
@@ -24,24 +24,24 @@ COUNTS = {1: (40,), 2: (13, 12), 3: (7, 6, 6)}
 TERMS = [("morris", 1), ("oger", 1), ("fatehi_manzari", 2), ("oger", 2), ("morris", 2), ("morris", 3), ("oger", 3)]
 
 
-def places(dimension: int, threads: int = 1, count: int | None = None, periodic: bool = True) -> Places:
+def places(dimension: int, threads: int = 1, count: int | None = None, periodic: bool = True) -> ParticleSums:
     """Jittered particles of different volumes; sums are made for the first `count`."""
     positions = jittered(COUNTS[dimension], 0.4, seed=dimension)
     volume = np.random.default_rng(5).uniform(0.8, 1.2, len(positions))
     domain = box(COUNTS[dimension]) if periodic else None
-    return Places(positions, count or len(positions), KERNEL, volume, domain, threads)
+    return ParticleSums(positions, count or len(positions), KERNEL, volume, domain, threads)
 
 
-def field(places: Places, components: int = 1) -> Array:
+def field(places: ParticleSums, components: int = 1) -> Array:
     return np.random.default_rng(6).random((places.total, components))
 
 
-def matrix(term: Any, where: Places) -> Any:
+def matrix(term: Any, where: ParticleSums) -> Any:
     """Row k is of particle `neighbours.rows[k]`."""
     return where.matrix(LaplacianWeights(term, KERNEL, NoCorrection()), term.preparation(KERNEL, NoCorrection()))
 
 
-def laplacian(term: Any, where: Places, values: Array) -> Array:
+def laplacian(term: Any, where: ParticleSums, values: Array) -> Array:
     sweep = Laplacian(term, KERNEL, NoCorrection())
     return where.sum(sweep, term.preparation(KERNEL, NoCorrection()), values=values)
 
@@ -101,7 +101,7 @@ def test_weights_come_in_the_order_of_the_list() -> None:
 
 def test_a_particle_that_is_alone_has_an_empty_row() -> None:
     positions = np.array([[0.0, 0.0], [100.0, 0.0], [1.0, 0.5]])
-    where = Places(positions, 3, KERNEL, np.ones(3), None, 1)
+    where = ParticleSums(positions, 3, KERNEL, np.ones(3), None, 1)
     rows = matrix(VISCOSITY["morris"], where)
     lengths = dict(zip(where.neighbours.rows.tolist(), np.diff(rows.indptr).tolist(), strict=True))
     assert lengths == {0: 1, 1: 0, 2: 1}

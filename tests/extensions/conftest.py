@@ -5,12 +5,23 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import sphear
 from sphear.extensions import discovery, loading
+from sphear.names import Registry
 
+REGISTRIES: tuple[Registry[Any], ...] = (
+    sphear.VISCOSITY,
+    sphear.KERNELS,
+    sphear.CORRECTIONS,
+    sphear.EQUATIONS_OF_STATE,
+    sphear.SHIFTING,
+    sphear.WALL_MODELS,
+    sphear.PRECONDITIONERS,
+)
 FILE = Path(__file__).with_name("my_terms.py")
 
 
@@ -21,7 +32,7 @@ def free_names(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setattr(sys, "path", list(sys.path))
     discovery.discover()
     yield
-    for registry in (sphear.VISCOSITY, sphear.KERNELS, sphear.CORRECTIONS, sphear.EQUATIONS_OF_STATE):
+    for registry in REGISTRIES:
         for name in set(registry) - registry.published:
             registry.remove(name)
     for name in ("my_terms", "failing_extension", "working_extension"):

@@ -13,7 +13,7 @@ from sphear import WendlandC2
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import PointFit, PointWeights
 from sphear.interactions.wall_fit import WallFit, WallWeights
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 from tests.particles import Array, jittered
 
 KERNEL = WendlandC2(1.5)
@@ -23,7 +23,7 @@ SMALL = st.floats(-3.0, 3.0)
 def rows(points: Array, particles: Array, weights: Any, fit: Any, **fields: Array) -> Array:
     """The weights (points, particles) of a fit around points, which have no volume themselves."""
     volume = np.concatenate((np.zeros(len(points)), np.ones(len(particles))))
-    where = Places(np.concatenate((points, particles)), len(points), KERNEL, volume, None, 1, coincident=True)
+    where = ParticleSums(np.concatenate((points, particles)), len(points), KERNEL, volume, None, 1, coincident=True)
     where.fields.update(fields)
     matrix = where.matrix(weights, fit)[np.argsort(where.neighbours.rows)].toarray()
     assert not matrix[:, : len(points)].any()
@@ -128,7 +128,7 @@ def test_without_fluid_before_it_a_wall_has_nothing_to_continue() -> None:
 def normal_rows(points: Array, normals: Array, particles: Array) -> Array:
     """The rows (points, points + particles) of n . grad f; the points on the wall are neighbours too."""
     everything = np.concatenate((points, particles))
-    where = Places(everything, len(points), KERNEL, np.ones(len(everything)), None, 1)
+    where = ParticleSums(everything, len(points), KERNEL, np.ones(len(everything)), None, 1)
     where.fields["normal"] = np.concatenate((normals, np.zeros_like(particles)))
     return np.asarray(
         where.matrix(NormalWeights(KERNEL), NormalFit(KERNEL))[np.argsort(where.neighbours.rows)].toarray()

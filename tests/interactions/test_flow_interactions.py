@@ -15,7 +15,6 @@ from sphear.interactions import (
     DensityDiffusion,
     FluidBeforeWall,
     InternalEnergy,
-    Momentum,
     Part,
     PressureForce,
     Rates,
@@ -134,20 +133,6 @@ def test_a_uniform_pressure_exerts_no_force_once_reduced(form: Any) -> None:
     known = with_pressure(fields(), np.full(COUNT, 1e6))
     np.testing.assert_allclose(rate(PressureForce(KERNEL, NONE, form), known), 0.0, atol=1e-7)
     np.testing.assert_allclose(rate(PressureForce(KERNEL, NONE, form, False, 1e6), known), 0.0, atol=1e-7)
-
-
-@pytest.mark.parametrize("correction", ["none", "shepard"])
-@pytest.mark.parametrize("viscosity", ["takeda", "morris", "violeau"])
-def test_viscous_and_pressure_force_are_the_momentum_equation(viscosity: str, correction: str) -> None:
-    known, term, chosen = fields(), VISCOSITY[viscosity], CORRECTIONS[correction]
-    parts = Rates((ViscousForce(term, KERNEL, chosen), PressureForce(KERNEL, chosen, "squares", reduced=False)))
-    cloud = Particles.read(POSITIONS, kernel=KERNEL, volumes=known["volume"])
-    preparation = term.preparation(KERNEL, chosen)
-    found, expected = (
-        run(Operation((sums,), preparation), cloud.neighbours, known).values
-        for sums in (parts, Momentum(term, KERNEL, chosen))
-    )
-    close(found, expected)
 
 
 @corrections

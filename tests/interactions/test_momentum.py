@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from sphear import CORRECTIONS, VISCOSITY, CubicSpline, Particles
-from sphear.interactions import Momentum
+from sphear.interactions import PressureForce, Rates, ViscousForce
 from sphear.operators.pipeline import Operation, run
 from tests.particles import Array, all_pairs, jittered, summed
 
@@ -30,7 +30,8 @@ def particles() -> tuple[Particles, dict[str, Any]]:
 
 def momentum(viscosity: str, correction: str, fields: dict[str, Any]) -> Array:
     term, chosen = VISCOSITY[viscosity], CORRECTIONS[correction]
-    operation = Operation((Momentum(term, KERNEL, chosen),), term.preparation(KERNEL, chosen))
+    forces = ViscousForce(term, KERNEL, chosen), PressureForce(KERNEL, chosen, "squares", reduced=False)
+    operation = Operation((Rates(forces),), term.preparation(KERNEL, chosen))
     return run(operation, particles()[0].neighbours, fields).values
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 from contextlib import suppress
 from functools import lru_cache
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from sphear.cli.output import print_sentence, progress
@@ -15,10 +16,23 @@ from sphear.words import in_words
 if TYPE_CHECKING:
     from sphear.viscosity.card import Card
 
-KINDS = ("kernels", "viscosity", "corrections", "preconditioners", "studies", "cases")
+_HOMES = {  # the module and the name of each registry
+    "kernels": ("sphear.kernels", "KERNELS"),
+    "viscosity": ("sphear.viscosity", "VISCOSITY"),
+    "corrections": ("sphear.corrections", "CORRECTIONS"),
+    "equations": ("sphear.equations_of_state", "EQUATIONS_OF_STATE"),
+    "walls": ("sphear.boundaries.models", "WALL_MODELS"),
+    "shifting": ("sphear.shifting", "SHIFTING"),
+    "preconditioners": ("sphear.pressure", "PRECONDITIONERS"),
+}
+KINDS = (*_HOMES, "studies", "cases")
 _SINGULAR = {
     "kernel": "kernels",
     "correction": "corrections",
+    "equation": "equations",
+    "equation_of_state": "equations",
+    "wall": "walls",
+    "wall_model": "walls",
     "preconditioner": "preconditioners",
     "study": "studies",
     "case": "cases",
@@ -37,23 +51,13 @@ CASES = {
     "dam-break": "a column of fluid that collapses in a tank, against the measured front",
 }
 
-PRECONDITIONERS = {  # aliases and summary
-    "jacobi": (["diagonal"], "the diagonal alone: costs nothing, needs iterations in proportion to particles a side"),
-    "grid": (
-        ["spectral", "cosine", "fourier"],
-        "a background grid for what is smooth, beside damped Jacobi for what is not; also with holes and surfaces",
-    ),
-    "amg": (["multigrid", "pyamg", "ruge_stuben"], "algebraic multigrid: knows the matrix alone, for any geometry"),
-}
-
 
 def kind_of(name: str) -> str:
     """The kind of a name in the plural or the singular; raises SphearError with the nearest."""
-    plain = name.strip().lower()
-    plain = _SINGULAR.get(plain, plain)
-    if plain not in KINDS:
+    kind = _SINGULAR.get(plain(name), plain(name))
+    if kind not in KINDS:
         raise unknown("kind", name, KINDS)
-    return plain
+    return kind
 
 
 def kind_and_name(words: list[str]) -> tuple[str, str]:
@@ -66,7 +70,7 @@ def kind_and_name(words: list[str]) -> tuple[str, str]:
         kind = kind_of(words[0])
     except SphearError:
         whole = " ".join(words)
-        for registered in ("viscosity", "kernels", "corrections", "preconditioners"):
+        for registered in ("viscosity", *_HOMES):
             with suppress(SphearError):
                 return registered, _registry(registered).name(whole)
         raise
@@ -79,8 +83,6 @@ def entries(kind: str) -> list[dict[str, Any]]:
     """Name, aliases and a line about each thing of a kind."""
     if kind == "cases":
         return [{"name": name, "aliases": [], "summary": text} for name, text in CASES.items()]
-    if kind == "preconditioners":
-        return [{"name": name, "aliases": both[0], "summary": both[1]} for name, both in PRECONDITIONERS.items()]
     if kind == "studies":
         from sphear.studies import ITEMS
 
@@ -96,25 +98,12 @@ def entries(kind: str) -> list[dict[str, Any]]:
 
 
 def _registry(kind: str) -> Any:
-    if kind == "kernels":
-        from sphear.kernels import KERNELS
-
-        return KERNELS
-    if kind == "corrections":
-        from sphear.corrections import CORRECTIONS
-
-        return CORRECTIONS
-    if kind == "preconditioners":
-        from sphear.pressure import PRECONDITIONERS
-
-        return PRECONDITIONERS
-    from sphear.viscosity import VISCOSITY
-
-    return VISCOSITY
+    module, name = _HOMES[kind]
+    return getattr(import_module(module), name)
 
 
 def _first_line(item: Any) -> str:
-    """The first line of what is said of a kernel, correction or viscous term.
+    """The first line of what is said of a registered thing.
 
     That of its module, where it has one of its own; of the class of a user's, whose module may be a whole program.
     """
@@ -134,8 +123,7 @@ def described(kind: str, name: str) -> dict[str, Any]:
     if kind == "viscosity":
         return facts | viscous_card(facts["name"]).as_dict()
     facts |= {"summary": _first_line(item), "formula": item.formula}
-    if kind != "preconditioners":
-        facts["source"] = item.source
+    facts["source"] = item.source
     if kind == "kernels":
         facts |= {"support": f"{item.support:g} h", "sigma": dict(zip(("1-D", "2-D", "3-D"), item.sigma, strict=True))}
     return facts

@@ -10,13 +10,11 @@ from sphear.cli.output import print_json, print_tables
 
 
 def list_names(
-    kind: str | None = typer.Argument(
-        None, metavar="[kernels|viscosity|corrections|preconditioners|studies|cases]", help="Default: all."
-    ),
+    kind: str | None = typer.Argument(None, metavar=f"[{'|'.join(KINDS)}]", help="Default: all."),
     extensions: list[str] = EXTENSIONS,
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of tables."),
 ) -> None:
-    """List kernels, viscous terms, corrections, preconditioners, studies or cases."""
+    """List the names of everything that can be chosen, by kind."""
     kinds = KINDS if kind is None else (kind_of(kind),)
     found = {name: entries(name) for name in kinds}
     if as_json:

@@ -1,4 +1,4 @@
-"""`sphear show`: the card of one kernel, viscous term, correction, study or case."""
+"""`sphear show`: the card of one thing that has a name, or of a study or case."""
 
 from __future__ import annotations
 
@@ -7,15 +7,13 @@ from typing import Any
 
 import typer
 
-from sphear.cli.catalogue import described, kind_and_name
+from sphear.cli.catalogue import KINDS, described, kind_and_name
 from sphear.cli.extension import EXTENSIONS
 from sphear.cli.output import print_json, print_text
 
 
 def show(
-    kind: str = typer.Argument(
-        ..., metavar="KIND", help="kernels, viscosity, corrections, preconditioners, studies or cases; may be left out."
-    ),
+    kind: str = typer.Argument(..., metavar="KIND", help=f"{', '.join(KINDS[:-1])} or {KINDS[-1]}; may be left out."),
     name: list[str] = typer.Argument((), metavar="NAME", help="As `sphear list KIND` shows it, or an alias."),
     extensions: list[str] = EXTENSIONS,
     as_json: bool = typer.Option(False, "--json", help="Print JSON instead of text."),

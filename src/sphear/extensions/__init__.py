@@ -1,1 +1,1 @@
-"""Extensions: viscous terms, kernels, corrections and equations of state of others, by names like the package's."""
+"""Extensions: formulas and parts of schemes of others, by names like the package's own."""

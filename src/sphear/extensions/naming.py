@@ -1,4 +1,4 @@
-"""Decorators that give viscous terms, kernels, corrections and equations of state names."""
+"""Decorators that give viscous terms, kernels, corrections, equations of state and parts of schemes names."""
 
 from __future__ import annotations
 
@@ -6,18 +6,26 @@ from collections.abc import Callable, Sequence
 from types import FunctionType
 from typing import Any, Protocol, TypeVar, dataclass_transform, overload
 
+from sphear.boundaries.models import WALL_MODELS, WallModel
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState
 from sphear.extensions import protocol
 from sphear.extensions.registering import checked_names, register
 from sphear.extensions.weights import Weight, of_weight
 from sphear.kernels import KERNELS, Kernel
+from sphear.names import Registry
+from sphear.pressure import PRECONDITIONERS, Preconditioner
+from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, LaplacianTerm, ViscousTerm
 
+T = TypeVar("T")
 TermT = TypeVar("TermT", bound="ViscousTerm | type[ViscousTerm]")
 KernelT = TypeVar("KernelT", bound=type[Kernel])
 CorrectionT = TypeVar("CorrectionT", bound="Correction | type[Correction]")
 EquationT = TypeVar("EquationT", bound=type[EquationOfState])
+ShiftingT = TypeVar("ShiftingT", bound="ShiftingMethod | type[ShiftingMethod]")
+WallModelT = TypeVar("WallModelT", bound="WallModel | type[WallModel]")
+PreconditionerT = TypeVar("PreconditionerT", bound="Preconditioner | type[Preconditioner]")
 
 
 class NamesTerm(Protocol):
@@ -27,6 +35,19 @@ class NamesTerm(Protocol):
     def __call__(self, term: TermT, /) -> TermT: ...
     @overload
     def __call__(self, term: Weight, /) -> LaplacianTerm: ...
+
+
+def _named(of: protocol.Protocol, registry: Registry[Any], name: str, aliases: Sequence[str]) -> Callable[[T], T]:
+    """The decorator that puts what it is given into a registry, checked by its kind."""
+    names = checked_names(of.decorator, name, aliases)
+
+    def decorate(given: Any) -> Any:
+        thing = of_weight(given) if of is protocol.TERM and isinstance(given, FunctionType) else given
+        kind = protocol.checked(thing, of)
+        register(registry, names, thing() if of.instances and isinstance(thing, type) else thing, kind)
+        return thing
+
+    return decorate
 
 
 @dataclass_transform(frozen_default=True)
@@ -58,16 +79,9 @@ def viscous_term(name: str, *, aliases: Sequence[str] = ()) -> NamesTerm:
         ...         return -self.factor * correction.radial(kernel, own.prepared, d, r2) / r2
         >>> sphear.laplacian(positions, values, viscosity="mine")
     """
-    names = checked_names("viscous_term", name, aliases)
-
-    def decorate(term: Any) -> Any:
-        thing = of_weight(term) if isinstance(term, FunctionType) else term
-        kind = protocol.checked(thing, protocol.TERM, "viscous_term")
-        item: ViscousTerm = thing() if isinstance(thing, type) else thing
-        register(VISCOSITY, names, item, kind)
-        return thing
-
-    return decorate
+    decorator: Any = _named(protocol.TERM, VISCOSITY, name, aliases)
+    named: NamesTerm = decorator
+    return named
 
 
 @dataclass_transform(frozen_default=True)
@@ -95,14 +109,7 @@ def kernel(name: str, *, aliases: Sequence[str] = ()) -> Callable[[KernelT], Ker
         ...     '''The kernel of Wendland, by a name of one's own.'''
         >>> sphear.gradient(positions, values, kernel="mine")
     """
-    names = checked_names("kernel", name, aliases)
-
-    def decorate(kind: KernelT) -> KernelT:
-        item: type[Kernel] = kind
-        register(KERNELS, names, item, protocol.checked(kind, protocol.KERNEL, "kernel"))
-        return kind
-
-    return decorate
+    return _named(protocol.KERNEL, KERNELS, name, aliases)
 
 
 @dataclass_transform(frozen_default=True)
@@ -130,15 +137,7 @@ def correction(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Correctio
         ...     '''The correction of Shepard, by a name of one's own.'''
         >>> sphear.gradient(positions, values, correction="mine")
     """
-    names = checked_names("correction", name, aliases)
-
-    def decorate(thing: Any) -> Any:
-        kind = protocol.checked(thing, protocol.CORRECTION, "correction")
-        item: Correction = thing() if isinstance(thing, type) else thing
-        register(CORRECTIONS, names, item, kind)
-        return thing
-
-    return decorate
+    return _named(protocol.CORRECTION, CORRECTIONS, name, aliases)
 
 
 @dataclass_transform(frozen_default=True)
@@ -165,11 +164,50 @@ def equation_of_state(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Eq
         ...     '''The linear equation, by a name of one's own.'''
         >>> sphear.flow("cavity", equation_of_state="mine")
     """
-    names = checked_names("equation_of_state", name, aliases)
+    return _named(protocol.EQUATION, EQUATIONS_OF_STATE, name, aliases)
 
-    def decorate(kind: EquationT) -> EquationT:
-        item: type[EquationOfState] = kind
-        register(EQUATIONS_OF_STATE, names, item, protocol.checked(kind, protocol.EQUATION, "equation_of_state"))
-        return kind
 
-    return decorate
+@dataclass_transform(frozen_default=True)
+def shifting_method(name: str, *, aliases: Sequence[str] = ()) -> Callable[[ShiftingT], ShiftingT]:
+    """Give a way of shifting a name, which incompressible flows take as the setting `shifting` from then on.
+
+    It decorates a class derived from `ShiftingMethod`, or an object of one, with the method `drift`: a sum over
+    neighbours, a `sphear.interactions.Part` of the role "drift". The setting `shifting_strength` is its field
+    `strength`, if it has one.
+
+    Args:
+        name: of the method, found whatever the case, with '-' and ' ' read as '_'.
+        aliases: other names of it.
+
+    Returns:
+        The decorator, which gives back the class or object it is given.
+
+    Raises:
+        SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
+            thing is no way of shifting.
+    """
+    return _named(protocol.SHIFTING, SHIFTING, name, aliases)
+
+
+@dataclass_transform(frozen_default=True)
+def wall_model(name: str, *, aliases: Sequence[str] = ()) -> Callable[[WallModelT], WallModelT]:
+    """Give a wall model a name, which incompressible flows take as the setting `walls` from then on.
+
+    It decorates a class derived from `WallModel` or one of the package's models, or an object of one, that changes
+    methods of it: all have one. The settings `continuation` and `wall_divergence` are its fields.
+
+    Args, returns and raises: as `shifting_method`.
+    """
+    return _named(protocol.WALL_MODEL, WALL_MODELS, name, aliases)
+
+
+@dataclass_transform(frozen_default=True)
+def preconditioner(name: str, *, aliases: Sequence[str] = ()) -> Callable[[PreconditionerT], PreconditionerT]:
+    """Give a preconditioner a name, which incompressible flows take as the setting `preconditioner` from then on.
+
+    It decorates a class derived from `Preconditioner`, or an object of one, with the method `build`, which makes of a
+    `PressureSystem` the function that applies nearly its inverse.
+
+    Args, returns and raises: as `shifting_method`.
+    """
+    return _named(protocol.PRECONDITIONER, PRECONDITIONERS, name, aliases)

@@ -5,10 +5,13 @@ from __future__ import annotations
 import dataclasses
 from typing import Any, NamedTuple
 
+from sphear.boundaries.models import WallModel
 from sphear.corrections import Correction
 from sphear.equations_of_state import EquationOfState
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
+from sphear.pressure import Preconditioner
+from sphear.shifting import ShiftingMethod
 from sphear.viscosity import LaplacianTerm, ViscousTerm
 
 
@@ -16,6 +19,7 @@ class Protocol(NamedTuple):
     """A kind of thing: its base class, and what each class of the kind defines itself.
 
     Attributes:
+        decorator: that names things of it.
         base: the class to derive from.
         said: the base class as users write it.
         methods: the names of its methods.
@@ -24,6 +28,7 @@ class Protocol(NamedTuple):
         instances: an object of the class may have a name too, not the class alone.
     """
 
+    decorator: str
     base: type
     said: str
     methods: tuple[str, ...]
@@ -32,22 +37,28 @@ class Protocol(NamedTuple):
     instances: bool = False
 
 
-TERM = Protocol(ViscousTerm, "sphear.ViscousTerm or sphear.LaplacianTerm", ("acceleration",), instances=True)
-KERNEL = Protocol(Kernel, "sphear.Kernel", ("shape", "slope", "curvature"), ("support", "sigma"), ("h",))
-CORRECTION = Protocol(Correction, "sphear.Correction", ("preparation", "value", "gradient"), instances=True)
+TERM = Protocol(
+    "viscous_term", ViscousTerm, "sphear.ViscousTerm or sphear.LaplacianTerm", ("acceleration",), instances=True
+)
+KERNEL = Protocol("kernel", Kernel, "sphear.Kernel", ("shape", "slope", "curvature"), ("support", "sigma"), ("h",))
+CORRECTION = Protocol(
+    "correction", Correction, "sphear.Correction", ("preparation", "value", "gradient"), instances=True
+)
 EQUATION = Protocol(
-    EquationOfState, "sphear.EquationOfState or sphear.Barotropic", ("pressure", "sound_speed", "density"),
-    fields=("rho0", "c0"),
+    "equation_of_state", EquationOfState, "sphear.EquationOfState or sphear.Barotropic",
+    ("pressure", "sound_speed", "density"), fields=("rho0", "c0"),
 )  # fmt: skip
+SHIFTING = Protocol("shifting_method", ShiftingMethod, "sphear.ShiftingMethod", ("drift",), instances=True)
+WALL_MODEL = Protocol("wall_model", WallModel, "sphear.WallModel", (), instances=True)
+PRECONDITIONER = Protocol("preconditioner", Preconditioner, "sphear.Preconditioner", ("build",), instances=True)
 
 
-def checked(thing: Any, protocol: Protocol, decorator: str) -> type:
+def checked(thing: Any, protocol: Protocol) -> type:
     """The class of what is decorated, or of the object, made a frozen dataclass unless it is one.
 
     Args:
         thing: that is to have a name.
         protocol: its kind.
-        decorator: that was used, for the error.
 
     Raises:
         SphearError: it is of another kind, or lacks a method, an attribute or a default.
@@ -56,7 +67,9 @@ def checked(thing: Any, protocol: Protocol, decorator: str) -> type:
     if not issubclass(kind, protocol.base) or not (protocol.instances or isinstance(thing, type)):
         what = f"the class {kind.__name__}" if isinstance(thing, type) else f"{quoted(thing)}"
         either = ", or an object of one" if protocol.instances else ""
-        raise SphearError(f"@sphear.{decorator} names a class derived from {protocol.said}{either}, not {what}")
+        raise SphearError(
+            f"@sphear.{protocol.decorator} names a class derived from {protocol.said}{either}, not {what}"
+        )
     _complete(kind, protocol)
     if isinstance(thing, type) and "__dataclass_fields__" not in vars(kind):
         _as_dataclass(kind)

@@ -6,7 +6,6 @@ from sphear.interactions.gradient import Divergence, Gradient
 from sphear.interactions.internal_energy import InternalEnergy
 from sphear.interactions.interpolation import Interpolation, NumberDensity
 from sphear.interactions.laplacian import Laplacian
-from sphear.interactions.momentum import Momentum
 from sphear.interactions.pressure_force import PressureForce
 from sphear.interactions.rates import Part, Rates
 from sphear.interactions.transport import (
@@ -31,7 +30,6 @@ __all__ = [
     "InternalEnergy",
     "Interpolation",
     "Laplacian",
-    "Momentum",
     "NumberDensity",
     "Part",
     "PressureForce",

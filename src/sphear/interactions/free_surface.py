@@ -1,4 +1,4 @@
-"""Which particles lie on a free surface."""
+"""Sums that tell the particles on a free surface from those inside."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Concentration:
 
 @dataclass(frozen=True)
 class Umbrella(Sum):
-    """How many neighbours lie under an umbrella of 45 degrees that a particle holds against the outside.
+    """The number of neighbours under an umbrella of 45 degrees that a particle holds against the outside.
 
     Marrone, Colagrossi, Le Touze & Graziani 2010, Fast free-surface detection and level-set function definition in SPH
     solvers, J. Comput. Phys. 229:3652, eq. 8: the umbrella ends at T = r_i + l n, l its length, n the outward normal.

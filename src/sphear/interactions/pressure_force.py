@@ -40,10 +40,12 @@ class PressureForce(Part):
     role = "velocity"
 
     def _terms(self, own: Any, other: Any) -> tuple[Scalar, Scalar, Scalar]:
-        """m_j or V_j / rho_i, the pressures' sum and what a constant pressure multiplies."""
+        """m_j or V_j / rho_i, the pressures' sum and the factor of a constant pressure, 0 where there is none."""
+        constant: Scalar = 0.0
         if self.form == "squares":
             weight, pressure = other.mass, own.pressure_over_density2 + other.pressure_over_density2
-            constant = own.inverse_density2 + other.inverse_density2
+            if self.reduced or self.subtracted is not None:  # else nobody need hold 1 / rho^2
+                constant = own.inverse_density2 + other.inverse_density2
         else:
             weight, pressure, constant = other.volume / own.density, own.pressure + other.pressure, 2.0
         if self.subtracted is not None:

@@ -21,11 +21,11 @@ class Part:
     role: ClassVar[str]
 
     def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
-        """What the pair adds to the rate, and further sums (a nested tuple) that `finish` needs."""
+        """The pair's part of the rate, and further sums (a nested tuple) that `finish` needs."""
         raise NotImplementedError
 
     def finish(self, own: Any, sums: Any) -> Vector | None:
-        """What is made of the further sums and of the particle itself, to be added to the rate; None if nothing."""
+        """The rate that the further sums and the particle itself add; None if nothing."""
         return None
 
 

@@ -56,7 +56,7 @@ class Shifting(Part):
 
 @dataclass(frozen=True)
 class Advection(Part):
-    """What moving with the drift w changes in the fluid's velocity: (w_i . grad) u_i, of differences u_j - u_i.
+    """The change of the fluid's velocity by moving with the drift w: (w_i . grad) u_i, of differences u_j - u_i.
 
     A particle that is put elsewhere takes the velocity that the fluid has there, to first order. Constant velocities
     stay, momentum as a whole does not quite.
@@ -90,7 +90,7 @@ class Advection(Part):
 
 @dataclass(frozen=True)
 class DensityAdvection(Part):
-    """What moving with the drift w changes in the density: w_i . grad rho_i, of differences rho_j - rho_i."""
+    """The change of the density by moving with the drift w: w_i . grad rho_i, of differences rho_j - rho_i."""
 
     shifting: Shifting
     kernel: Kernel

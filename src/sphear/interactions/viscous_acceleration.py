@@ -47,5 +47,5 @@ class ViscousForce(Part):
         return self.term.acceleration(self.kernel, self.correction, own, other, d, r2), ()
 
     def finish(self, own: Any, sums: Any) -> Vector | None:
-        """What the particle adds itself."""
+        """The particle's own part."""
         return self.term.own_acceleration(self.kernel, self.correction, own)

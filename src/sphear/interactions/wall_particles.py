@@ -1,4 +1,4 @@
-"""What fixed wall particles take from the fluid before them: a velocity, and a pressure."""
+"""Velocity and pressure of fixed wall particles, from the fluid before them."""
 
 from __future__ import annotations
 

@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from sphear.pressure.failure import PressureFailure
-from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Grid, Jacobi, Preconditioner
+from sphear.pressure.preconditioners import (
+    PRECONDITIONERS,
+    AlgebraicMultigrid,
+    Grid,
+    Jacobi,
+    Preconditioner,
+    read_preconditioner,
+)
 from sphear.pressure.solve import Solution, solve
 from sphear.pressure.system import PressureSystem
 
@@ -16,5 +23,6 @@ __all__ = [
     "PressureFailure",
     "PressureSystem",
     "Solution",
+    "read_preconditioner",
     "solve",
 ]

@@ -1,4 +1,4 @@
-"""What is raised when no method and no preconditioner solves a pressure equation."""
+"""The error of a pressure equation that no method and no preconditioner solves."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ TINY = 1e-14  # of two vectors' lengths, a product of BiCGSTAB that only roundin
 
 @dataclass(frozen=True)
 class Run:
-    """What a method came to.
+    """The approximation that a method came to, and its cost.
 
     Attributes:
         values: (n,), its approximation, which need not be finite after a breakdown.

@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from sphear.errors import SphearError
 from sphear.pressure.failure import PressureFailure
 from sphear.pressure.krylov import Run, Vector, iterate
-from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Preconditioner
+from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Preconditioner, read_preconditioner
 from sphear.pressure.system import ROUNDING, PressureSystem
 from sphear.pressure.vectors import norm
 
@@ -80,7 +80,7 @@ def solve(
         PressureFailure: neither the preconditioner asked for nor GMRES with a safer one (amg if pyamg is installed,
             else jacobi) reaches the tolerance.
     """
-    first = PRECONDITIONERS[preconditioner] if isinstance(preconditioner, str) else preconditioner
+    first = read_preconditioner(preconditioner)
     right = _checked("right-hand side", right, system.unknowns)
     guess = None if guess is None else _checked("first guess", guess, system.unknowns)
     if not 0 < tolerance < 1:

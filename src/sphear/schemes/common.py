@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import Any, Literal
+from collections.abc import Iterable, Mapping
+from typing import Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from sphear.checked import checked
 from sphear.errors import SphearError
 from sphear.names import unknown
+from sphear.schemes.flat_settings import FlatSetting, flattened
 from sphear.schemes.objects import text
 
 LEAST_REYNOLDS, LARGEST_REYNOLDS = 1e-100, 1e100  # beyond, squares vanish or overflow
@@ -38,13 +39,25 @@ class Choices(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
+    flat: ClassVar[Mapping[str, FlatSetting]] = {}  # choices that may be objects, with the flat ones
+
     def __init__(self, **choices: Any) -> None:
+        choices = self.flattened(choices)
         known = type(self).model_fields
         for key in choices:
             if key not in known:
                 raise missing(key, known)
         with checked("the setting "):
             super().__init__(**choices)
+
+    @classmethod
+    def flattened(cls, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Choices with the objects among them said by flat settings, where they can be.
+
+        Raises:
+            SphearError: an object and a flat setting contradict each other.
+        """
+        return flattened(given, cls.flat)
 
 
 class Scheme(Choices):
@@ -80,7 +93,7 @@ class Scheme(Choices):
         return {name: field.default for name, field in type(self).model_fields.items()} | self._beside()
 
     def without_effect(self, walled: bool) -> list[str]:
-        """What was chosen, not as usual, and changes nothing beside the other settings; a sentence each.
+        """A sentence for each choice, not as usual, that changes nothing beside the other settings.
 
         Args:
             walled: whether the flow has walls.
@@ -100,6 +113,12 @@ class Scheme(Choices):
     def unmark(self, names: Iterable[str]) -> None:
         """Settings that came along with others: nobody is told that one of them has no effect."""
         self.__pydantic_fields_set__ -= set(names)
+
+    def _object(self, key: str) -> Any:
+        """The object that a setting and its flat ones choose."""
+        setting = self.flat[key]
+        flat = {name: getattr(self, name) for name in setting.fields.values()}
+        return setting.with_flat(getattr(self, key), flat)
 
     def _settle(self) -> None:
         """Give what nobody named the value that goes with the others."""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from sphear.boundaries import CONTINUATIONS
+from sphear.boundaries.models import WALL_MODELS
 from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.names import Registry
 from sphear.pressure import PRECONDITIONERS
 from sphear.schemes.objects import plain
+from sphear.shifting import SHIFTING
 from sphear.viscosity import VISCOSITY
 
 if TYPE_CHECKING:
@@ -25,6 +30,8 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "laplacian": VISCOSITY,
     "continuation": CONTINUATIONS,
     "preconditioner": PRECONDITIONERS,
+    "walls": WALL_MODELS,
+    "shifting": SHIFTING,
 }
 
 
@@ -34,12 +41,19 @@ def named(settings: Chosen) -> Chosen:
     Raises:
         SphearError: something has no such name.
     """
-    given = {key: getattr(settings, key) for key in REGISTRIES if hasattr(settings, key)}
-    if getattr(settings, "name", None) == "incompressible":  # which has its own, without aliases
-        given.pop("continuation")
+    given = {key: getattr(settings, key) for key in registries(type(settings))}
     names = {key: plain(value, REGISTRIES[key], _said(key)) for key, value in given.items()}
     changed = {key: name for key, name in names.items() if name != given[key]}  # others stay as nobody named them
     return settings.model_copy(update=changed)
+
+
+def registries(kind: type[BaseModel]) -> dict[str, Registry[Any]]:
+    """The registries of the settings of a class that are registered names; the others have a few of their own."""
+    return {key: REGISTRIES[key] for key, field in kind.model_fields.items() if key in REGISTRIES and _open(field)}
+
+
+def _open(field: FieldInfo) -> bool:
+    return get_origin(field.annotation) is not Literal
 
 
 def _said(key: str) -> str:

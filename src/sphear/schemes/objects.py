@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer, PlainValidator, ValidationInfo
 
+from sphear.boundaries.models import WALL_MODELS, WallModel
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.engine.structure import made_of
 from sphear.equations_of_state import EQUATIONS_OF_STATE, Barotropic, IdealGas
@@ -15,11 +16,13 @@ from sphear.errors import SphearError
 from sphear.kernels import KERNELS, Kernel
 from sphear.names import Registry
 from sphear.operators import arguments
+from sphear.pressure import PRECONDITIONERS, Preconditioner
+from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
 
 def text(value: Any) -> str:
-    """A name as it is; an object as its class and what it is made of, such as Cleary(xi=2, eta=0.1)."""
+    """A name as it is; an object as its class and what it is made of, such as Cleary(xi=2.0, eta=0.1)."""
     if isinstance(value, str):
         return value
     return repr(value) if isinstance(value, type) or not is_dataclass(value) else made_of(value)
@@ -60,11 +63,25 @@ def _chosen(registry: Registry[Any], kind: type, read: Callable[[Any], Any] = la
     return PlainValidator(_reader(registry, kind, read))
 
 
+def _by_name(registry: Registry[Any], kind: type) -> Any:
+    """Take objects of a kind, and names and aliases, of which the registered ones are kept."""
+    read = _reader(registry, kind, lambda value: value)
+
+    def reader(value: Any, info: ValidationInfo) -> Any:
+        found, key = read(value, info), str(info.field_name)
+        return plain(found, registry, "" if registry.kind == key else f"the setting {key}")
+
+    return PlainValidator(reader)
+
+
 WRITTEN = PlainSerializer(text, return_type=str, when_used="json")
 
 Term = Annotated[str | ViscousTerm, _chosen(VISCOSITY, ViscousTerm, arguments.read_viscosity), WRITTEN]
 CorrectionSetting = Annotated[str | Correction, _chosen(CORRECTIONS, Correction), WRITTEN]
 KernelSetting = Annotated[str | Kernel, _chosen(KERNELS, Kernel), WRITTEN]
+ShiftingSetting = Annotated[str | ShiftingMethod, _by_name(SHIFTING, ShiftingMethod), WRITTEN]
+WallModelSetting = Annotated[str | WallModel, _by_name(WALL_MODELS, WallModel), WRITTEN]
+PreconditionerSetting = Annotated[str | Preconditioner, _by_name(PRECONDITIONERS, Preconditioner), WRITTEN]
 
 
 def _equation(value: Any) -> Any:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, InstanceOf, model_validator
 
 from sphear.equations_of_state import Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, RunSettings, Scheme
+from sphear.schemes.flat_settings import FlatSetting
 from sphear.schemes.objects import CorrectionSetting, EquationSetting, KernelSetting, Term, text
+from sphear.shifting import Lind
 
 DIFFUSION = 0.1  # delta
 
@@ -48,9 +51,9 @@ class WeaklyCompressible(Scheme):
             "slipping", also if nothing is said where there are both; or the one "continued" for the viscous term.
         wall_particles: particles with the wall's velocity on mirroring walls, one for each particle within a spacing.
         integrator: "midpoint", second-order Runge-Kutta, or "kick_drift_kick", with one evaluation a step.
-        transport: "none", that of an ideal gas, "shifting" (Lind et al. 2012) or "transport_velocity" (Adami et al.
-            2013).
-        shifting_strength: factor of the shifting.
+        transport: "none", that of an ideal gas, "shifting" (Lind et al. 2012), or an object of it, `Lind(strength=1)`,
+            or "transport_velocity" (Adami et al. 2013).
+        shifting_strength: of the shifting, 1 for that of its source.
         background_pressure: of the transport velocity, over density times squared sound speed.
         sound_speed: None takes the rule of Morris, Fox & Zhu (1997) for density variations of 1 %, and of 10 % in the
             corners of slow flows; of an ideal gas it follows from `initial_pressure`.
@@ -61,6 +64,9 @@ class WeaklyCompressible(Scheme):
     """
 
     name: ClassVar[str] = "explicit"
+    flat: ClassVar[Mapping[str, FlatSetting]] = {
+        "transport": FlatSetting(Lind, {"shifting": Lind()}, {"strength": "shifting_strength"})
+    }
 
     viscosity: Term = "fatehi_manzari"
     correction: CorrectionSetting = "bonet_lok"
@@ -77,7 +83,7 @@ class WeaklyCompressible(Scheme):
     wall_divergence: Literal["slipping", "continued"] = "slipping"
     wall_particles: bool = False
     integrator: Literal["midpoint", "kick_drift_kick"] = "midpoint"
-    transport: Literal["none", "shifting", "transport_velocity"] = "shifting"
+    transport: Literal["none", "shifting", "transport_velocity"] | InstanceOf[Lind] = "shifting"
     shifting_strength: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     background_pressure: float = Field(default=1.0, gt=0, allow_inf_nan=False)
     sound_speed: float | None = Field(default=None, gt=0, allow_inf_nan=False)
@@ -85,7 +91,7 @@ class WeaklyCompressible(Scheme):
 
     @property
     def gas(self) -> bool:
-        """Whether the fluid is an ideal gas, with an energy of its own."""
+        """The fluid is an ideal gas, with an energy of its own."""
         return self.equation_of_state == "ideal_gas" or isinstance(self.equation_of_state, IdealGas)
 
     @property

@@ -30,7 +30,7 @@ def test_sfdi_gradients_of_linear_pressures_are_exact() -> None:
     flow = in_a_tank(disorder=0.4, gradient="sfdi")
     sums = flow.discretisation.at(flow.x)
     slope = np.array((3.0, -2.0))
-    found = sums.pressure_gradient(5.0 + sums.places.positions @ slope)
+    found = sums.pressure_gradient(5.0 + sums.particles.positions @ slope)
     np.testing.assert_allclose(found, np.broadcast_to(slope, found.shape), atol=1e-10)
 
 
@@ -40,7 +40,7 @@ def test_a_raised_level_pushes_particles_apart_by_the_symmetric_gradient_only() 
     for level in ("free", "least"):
         flow = in_a_tank(disorder=0.2, pressure_level=level, **symmetric)
         sums = flow.discretisation.at(flow.x)
-        pressures = -sums.places.positions[:, 1]
+        pressures = -sums.particles.positions[:, 1]
         gradients[level] = sums.pressure_gradient(pressures)
     assert pressures is not None
     raised = -pressures[: flow.count].min()

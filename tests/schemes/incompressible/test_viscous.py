@@ -10,7 +10,7 @@ import pytest
 from sphear import CORRECTIONS, VISCOSITY, Domain, Particles, WendlandC2
 from sphear.corrections import NoCorrection
 from sphear.schemes.incompressible.flow import IncompressibleFlow
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.viscous import Viscous
 from tests.schemes.incompressible.flows import Array, case, in_a_box, vortices
 
@@ -70,7 +70,7 @@ CLUSTERS = {
 def test_spray_feels_no_more_than_the_uncorrected_term(cluster: str, term: str) -> None:
     """A correction of so few neighbours would be anything."""
     x = np.array(CLUSTERS[cluster])
-    places = Places(x, len(x), KERNEL, np.ones(len(x)), None, 1)
+    places = ParticleSums(x, len(x), KERNEL, np.ones(len(x)), None, 1)
     u = np.random.default_rng(len(x)).normal(size=x.shape)
     found, plain = (
         Viscous(VISCOSITY[name], NoCorrection(), KERNEL, 1.0).acceleration(places, u, len(x))
@@ -87,7 +87,7 @@ def test_spray_beside_fluid_that_is_corrected() -> None:
     fluid = np.stack(np.meshgrid(np.arange(6.0), np.arange(6.0)), axis=-1).reshape(-1, 2)
     x = np.concatenate((fluid, [(20.0, 0.0), (20.9, 0.0)]))
     u = np.stack((x[:, 0] ** 2 + x[:, 1] ** 2, x[:, 1]), axis=1)
-    places = Places(x, len(x), KERNEL, np.ones(len(x)), None, 1)
+    places = ParticleSums(x, len(x), KERNEL, np.ones(len(x)), None, 1)
     found = Viscous(VISCOSITY["fatehi_manzari"], NoCorrection(), KERNEL, 1.0).acceleration(places, u, len(x))
     np.testing.assert_allclose(found[:36], np.tile([4.0, 0.0], (36, 1)), atol=1e-9)
     assert places.deficient(VISCOSITY["fatehi_manzari"].preparation(KERNEL, NoCorrection())).tolist() == [36, 37]

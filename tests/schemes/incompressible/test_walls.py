@@ -165,7 +165,7 @@ def test_a_cylinder_on_the_end_of_a_period_is_one_in_its_middle(wall_model: str,
     middle, end = flow(0.5), flow(0.0)
     place, order = np.lexsort(middle.positions.T.round(6)), (end.positions + np.array([0.5, 0.0])) % 1.0
     same = np.lexsort(order.T.round(6))
-    end.uneven[same] = middle.uneven[place]  # of the same particles, which have other numbers
+    end.displacement.uneven[same] = middle.displacement.uneven[place]  # of the same particles, which have other numbers
     np.testing.assert_allclose(order[same], middle.positions[place], rtol=0, atol=1e-12)
     middle.advance(5)
     end.advance(5)
@@ -194,7 +194,7 @@ def test_left_is_as_good_as_right_and_up(wall_model: str) -> None:
     found.advance(12)
     for at, shape, image in images.values():
         other = IncompressibleFlow(replace(problem, positions=at, shape=shape), found.settings)
-        other.uneven = image(found.uneven)
+        other.displacement.uneven = image(found.displacement.uneven)
         other.advance(12)
         np.testing.assert_allclose(other.velocities, image(found.velocities), rtol=0, atol=1e-9)
         np.testing.assert_allclose(other.pressure, found.pressure, rtol=0, atol=1e-9)

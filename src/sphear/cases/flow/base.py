@@ -101,7 +101,8 @@ class FlowCase(ABC):
             SphearError: a setting is wrong, or the case has no such scheme.
         """
         scheme = str(changes.get("scheme", next(iter(self.defaults))))
-        return self.kind(scheme)(**{**self.defaults[scheme], **changes})
+        kind = self.kind(scheme)
+        return kind(**{**self.defaults[scheme], **kind.flattened(changes)})
 
     def kind(self, scheme: str) -> type[Settings]:
         """The settings that the case has for a scheme.

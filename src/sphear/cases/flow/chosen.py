@@ -37,7 +37,8 @@ def flow(
         beyond: ends that the run goes on beyond, such as "steady" of a channel.
         settings: as `--set` of `sphear run` takes them, such as `scheme`, `viscosity`, `reynolds`, `resolution` and
             `until`; `sphear show case NAME` says what each means, what it may be and what it is by default. Viscous
-            terms, kernels, corrections and equations of state are names or objects.
+            terms, kernels, corrections, equations of state, wall models, shifting and preconditioners are names or
+            objects.
 
     Raises:
         SphearError: there is no such case, preset, setting or end, or one does not fit the others.
@@ -61,7 +62,8 @@ def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None
     """
     scheme = str(changes.get("scheme", next(iter(case.defaults))))
     behind = {} if preset is None else case.preset(preset, scheme)
-    known = case.kind(scheme).model_fields
+    kind = case.kind(scheme)
+    changes, known = kind.flattened(changes), kind.model_fields
     for key in changes:
         if key not in known:
             raise unknown_setting(key, known, scheme)

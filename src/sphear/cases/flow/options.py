@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TypedDict
 
+from sphear.boundaries.models import WallModel
 from sphear.corrections import Correction
 from sphear.equations_of_state import EquationOfState
 from sphear.kernels import Kernel
+from sphear.pressure import Preconditioner
+from sphear.shifting import Lind, ShiftingMethod
 from sphear.viscosity import ViscousTerm
 
 
@@ -39,10 +42,10 @@ class FlowOptions(TypedDict, total=False):
     pressure_reduction: str
     density_diffusion: float
     diffusion_form: str
-    walls: str
+    walls: str | WallModel
     wall_particles: bool
     integrator: str
-    transport: str
+    transport: str | Lind
     background_pressure: float
     sound_speed: float | None
     initial_pressure: float
@@ -54,10 +57,10 @@ class FlowOptions(TypedDict, total=False):
     laplacian: str | ViscousTerm
     alpha: float | None
     projection: str
-    shifting: str
+    shifting: str | ShiftingMethod
     solid: str
     viscous_step: str
-    preconditioner: str
+    preconditioner: str | Preconditioner
     tolerance: float
 
     # of cavity-cylinder

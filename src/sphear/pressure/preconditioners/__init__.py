@@ -11,5 +11,16 @@ from sphear.pressure.preconditioners.jacobi import Jacobi
 PRECONDITIONERS: Registry[Preconditioner] = Registry("preconditioner")
 for _preconditioner in (Jacobi(), Grid(), AlgebraicMultigrid()):
     PRECONDITIONERS.add(_preconditioner.name, _preconditioner, _preconditioner.aliases)
+PRECONDITIONERS.open()
 
-__all__ = ["PRECONDITIONERS", "AlgebraicMultigrid", "Grid", "Jacobi", "Preconditioner"]
+
+def read_preconditioner(preconditioner: str | Preconditioner) -> Preconditioner:
+    """A preconditioner by name or alias, or as an object.
+
+    Raises:
+        SphearError: there is none of that name.
+    """
+    return PRECONDITIONERS[preconditioner] if isinstance(preconditioner, str) else preconditioner
+
+
+__all__ = ["PRECONDITIONERS", "AlgebraicMultigrid", "Grid", "Jacobi", "Preconditioner", "read_preconditioner"]

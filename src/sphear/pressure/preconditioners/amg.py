@@ -27,10 +27,11 @@ class AlgebraicMultigrid(Preconditioner):
     name = "amg"
     aliases = ("multigrid", "pyamg", "ruge_stuben")
     formula = "M = one V-cycle on coarser matrices chosen by the strength of their entries"
+    source = "Ruge & Stueben 1987, in Multigrid Methods, SIAM, chapter 4"
 
     @staticmethod
     def installed() -> bool:
-        """Whether pyamg can be imported."""
+        """True where pyamg can be imported."""
         return find_spec("pyamg") is not None
 
     def check(self) -> None:

@@ -1,4 +1,4 @@
-"""What all preconditioners share."""
+"""The methods that all preconditioners have."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ class Preconditioner:
     that both have the same sign. Of a symmetric matrix the approximation is symmetric.
     """
 
-    name: ClassVar[str]
+    name: ClassVar[str] = "unnamed"
     aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str]
+    formula: ClassVar[str] = "not stated"
+    source: ClassVar[str] = "not stated"
 
     def check(self) -> None:
         """Refuse what cannot be had here.

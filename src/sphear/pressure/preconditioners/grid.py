@@ -10,6 +10,8 @@ import numpy as np
 from scipy.fft import next_fast_len
 
 from sphear.engine.cache import compiled
+from sphear.errors import SphearError, quoted
+from sphear.positive import is_positive
 from sphear.pressure.preconditioners.base import Preconditioner, Vector
 from sphear.pressure.preconditioners.multigrid import PartlyFilled
 from sphear.pressure.preconditioners.poisson import BoxPoisson
@@ -65,6 +67,9 @@ class Grid(Preconditioner):
     Args:
         coarsening: the distance of nodes, in particle spacings.
         damping: of Jacobi; a diagonal entry is about half the matrix' largest eigenvalue.
+
+    Raises:
+        SphearError: one of them is not a positive number.
     """
 
     coarsening: float = 2.0
@@ -73,6 +78,14 @@ class Grid(Preconditioner):
     name = "grid"
     aliases = ("spectral", "cosine", "fourier")
     formula = "M = P (c prod(size) / spacing^d lap_grid)^-1 P^T + 0.7 D^-1"
+    source = "sphear; additive two-level methods: Smith, Bjorstad & Gropp 1996, Domain Decomposition"
+
+    def __post_init__(self) -> None:
+        for name in ("coarsening", "damping"):
+            if not is_positive(value := getattr(self, name)):
+                raise SphearError(
+                    f"the {name} of the preconditioner grid must be a positive number, not {quoted(value)}"
+                )
 
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """Weights between particles and grid, eigenvalues, diagonal."""

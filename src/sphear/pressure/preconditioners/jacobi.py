@@ -16,6 +16,7 @@ class Jacobi(Preconditioner):
     name = "jacobi"
     aliases = ("diagonal",)
     formula = "M = D^-1"
+    source = "Saad 2003, Iterative Methods for Sparse Linear Systems, section 10.2"
 
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """Divide by the diagonal."""

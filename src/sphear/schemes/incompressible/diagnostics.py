@@ -1,4 +1,4 @@
-"""What tells whether an incompressible flow is still one: divergence, density, distances of particles."""
+"""Diagnostics of an incompressible flow, by which it is still one: divergence, density, distances of particles."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def diagnostics(flow: IncompressibleFlow) -> dict[str, float]:
       lattice.
     """
     problem, dx = flow.problem, flow.problem.spacing
-    sums = flow.discretisation.at(flow.x)
-    divergence = sums.divergence(sums.divergent(flow.u))
+    operators = flow.discretisation.at(flow.x)
+    divergence = operators.divergence(operators.divergent(flow.u))
     tree = cKDTree(_with_images(flow))
     domain = flow.discretisation.domain
     nearest = np.asarray(tree.query(flow.x if domain is None else domain.wrapped(flow.x), k=2)[0])[:, 1]
@@ -34,7 +34,7 @@ def diagnostics(flow: IncompressibleFlow) -> dict[str, float]:
         "pressure_iterations": float(flow.pressures.iterations),
         "pressure_residual": float(flow.pressures.residual),
         "divergence": float(np.abs(divergence).mean() * problem.length / problem.speed),
-        "density_deviation": float(np.sqrt(np.mean((sums.concentration() - 1.0) ** 2))),
+        "density_deviation": float(np.sqrt(np.mean((operators.concentration() - 1.0) ** 2))),
         "smallest_distance": float(nearest.min() / dx),
         "largest_gap": _largest_gap(flow, tree),
     }

@@ -11,7 +11,7 @@ from sphear.corrections import NoCorrection
 from sphear.errors import SphearError
 from sphear.interactions.free_surface import Concentration, NearSurface, Umbrella
 from sphear.kernels import Kernel
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.objects import text
 from sphear.viscosity.base import LaplacianTerm
@@ -26,7 +26,7 @@ WET, DRY = 0.7, 1.0  # spacings from a particle: up to there a point is in the f
 
 
 class Surface(NamedTuple):
-    """Which particles are on the free surface and near it.
+    """The particles on the free surface and near it.
 
     on: (N,), the outermost particles.
     near: (N,), with a neighbour on it, themselves included.
@@ -62,9 +62,8 @@ def check_surface_settings(settings: Incompressible, laplacian: LaplacianTerm, k
         raise SphearError(
             f"a free surface fixes the level of the pressure: take pressure_level=free, not {settings.pressure_level}"
         )
-    if settings.walls in ("sfdi", "natural"):
-        why = "needs fluid before every wall" if settings.walls == "sfdi" else "carries no weight on walls"
-        raise SphearError(f"walls={settings.walls} {why}: with a free surface take mirror_points or adami")
+    if why := settings.wall_model.surface_fault:
+        raise SphearError(f"walls={text(settings.walls)} {why}: with a free surface take mirror_points or adami")
     if laplacian.preparation(kernel, NoCorrection()) is not None:
         raise SphearError(
             f"the setting laplacian={text(settings.laplacian)} needs neighbours on all sides: with a free surface take"
@@ -72,7 +71,7 @@ def check_surface_settings(settings: Incompressible, laplacian: LaplacianTerm, k
         )
 
 
-def surface(places: Places, spacing: float, lattice_sum: float) -> Surface:
+def surface(particles: ParticleSums, spacing: float, lattice_sum: float) -> Surface:
     """The free surface, by the particles' concentration and by who lies under their umbrella against the outside.
 
     Zheng, Ma & Shao (2018), section 2, combine the particle number density with auxiliary functions of the neighbours'
@@ -81,43 +80,43 @@ def surface(places: Places, spacing: float, lattice_sum: float) -> Surface:
     particles that are wetted count as neighbours, so that a wall is no surface.
 
     Args:
-        places: of fluid and walls.
+        particles: of fluid and walls.
         spacing: of the particles.
         lattice_sum: the concentration of a lattice.
     """
-    kernel, count, dimension = places.kernel, places.count, places.positions.shape[1]
-    found = places.sum(Concentration(kernel))
+    kernel, count, dimension = particles.kernel, particles.count, particles.positions.shape[1]
+    found = particles.sum(Concentration(kernel))
     total, slope, moment = found[:, 0], found[:, 1 : dimension + 1], found[:, dimension + 1 :]
     moment = moment.reshape(count, dimension, dimension)
     concentration = total / lattice_sum
     inward = slope / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
-    normals = np.zeros((places.total, dimension))
+    normals = np.zeros((particles.total, dimension))
     normals[:count] = inward
-    under = places.sum(Umbrella(kernel, LENGTH * spacing), None, inward=normals)[:, 0]
+    under = particles.sum(Umbrella(kernel, LENGTH * spacing), None, inward=normals)[:, 0]
     on = ((concentration < INNER) & (under < 0.5)) | (concentration < SPRAY)
-    flags = np.zeros(places.total)
+    flags = np.zeros(particles.total)
     flags[:count] = on
-    near = on | (places.sum(NearSurface(kernel), None, surface=flags)[:, 0] > 0)
-    alone = total - places.fields["volume"][:count] * kernel.value_at_zero(dimension) < NOTHING
+    near = on | (particles.sum(NearSurface(kernel), None, surface=flags)[:, 0] > 0)
+    alone = total - particles.fields["volume"][:count] * kernel.value_at_zero(dimension) < NOTHING
     rough = near & (np.linalg.eigvalsh(moment)[:, 0] < ROUGH)
-    return Surface(on, near, alone, rough, concentration, slope, inward, moment, _depth(places, on, near, spacing))
+    return Surface(on, near, alone, rough, concentration, slope, inward, moment, _depth(particles, on, near, spacing))
 
 
-def _depth(places: Places, on: Array, near: Array, spacing: float) -> Array:
+def _depth(particles: ParticleSums, on: Array, near: Array, spacing: float) -> Array:
     """(N,), half a spacing and the distance from the next particle on the surface."""
-    depth = np.full(places.count, 0.5 * spacing)
+    depth = np.full(particles.count, 0.5 * spacing)
     inner = np.flatnonzero(near & ~on)
     if len(inner):
-        outermost, others = places.positions[: places.count][on], places.positions[inner]
-        if places.domain is not None:
-            outermost = places.domain.with_images(outermost, places.kernel.radius)[0]
-            others = places.domain.wrapped(others)
+        outermost, others = particles.positions[: particles.count][on], particles.positions[inner]
+        if particles.domain is not None:
+            outermost = particles.domain.with_images(outermost, particles.kernel.radius)[0]
+            others = particles.domain.wrapped(others)
         depth[inner] += cKDTree(outermost).query(others)[0]
     return depth
 
 
 def wetted(points: Array, fluid: Array, spacing: float) -> Array:
-    """How far points lie in the fluid, from 0, a spacing from the nearest particle, to 1, at 0.7, (W,).
+    """(W,), the share of points that is in the fluid, from 0, a spacing from the nearest particle, to 1, at 0.7.
 
     A wall particle whose mirror point is outside the fluid stands for no fluid, and nobody may count it.
     """

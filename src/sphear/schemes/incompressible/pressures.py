@@ -11,11 +11,11 @@ from sphear.corrections import NoCorrection
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
-from sphear.pressure import PRECONDITIONERS, solve
+from sphear.pressure import read_preconditioner, solve
+from sphear.schemes.incompressible.differential_operators import DifferentialOperators
 from sphear.schemes.incompressible.free_surface import check_surface_settings
-from sphear.schemes.incompressible.projection import Equation, PressureRows
+from sphear.schemes.incompressible.pressure_equation import PressureAssembly, PressureEquation
 from sphear.schemes.incompressible.settings import Incompressible
-from sphear.schemes.incompressible.sums import Sums
 from sphear.schemes.incompressible.walls import Walls
 from sphear.schemes.problem import Problem
 from sphear.viscosity.base import LaplacianTerm
@@ -69,21 +69,28 @@ class Pressures:
         self, problem: Problem, settings: Incompressible, kernel: Kernel, walls: Walls | None, alpha: float
     ) -> None:
         laplacian = pressure_laplacian(problem, settings, kernel)
-        self.preconditioner = PRECONDITIONERS.name(settings.preconditioner)
-        PRECONDITIONERS[self.preconditioner].check()
+        self.preconditioner = read_preconditioner(settings.preconditioner)
+        self.preconditioner.check()
         self.density, self.spacing = problem.density, problem.spacing
         self.alpha, self.tolerance = alpha, settings.tolerance
         self.walls = walls
-        self.rows = PressureRows(laplacian, kernel, walls, settings.walls, problem.box, problem.spacing)
+        self.assembly = PressureAssembly(laplacian, kernel, walls, problem.box, problem.spacing)
         self.fluid = np.zeros(len(problem.positions))
-        self.on_walls = np.zeros(self.rows.on_wall)
+        self.on_walls = np.zeros(self.assembly.on_wall)
         self.iterations, self.residual = 0, 0.0
 
-    def solve(self, sums: Sums, velocities: Array, accelerations: Array, time_step: float, later: float = 0.0) -> Array:
+    def solve(
+        self,
+        operators: DifferentialOperators,
+        velocities: Array,
+        accelerations: Array,
+        time_step: float,
+        later: float = 0.0,
+    ) -> Array:
         """(N + W,), the pressure that frees velocities of divergence and particles of crowding.
 
         Args:
-            sums: at the places of the projection.
+            operators: at the places of the projection.
             velocities: (N + W, d), predicted.
             accelerations: (W, d), that the pressure balances at walls.
             time_step: of the step.
@@ -94,71 +101,70 @@ class Pressures:
         """
         if self.walls is not None:  # what turns a wall turns the fluid at it, by the pressure
             accelerations = accelerations - 2.0 * later / time_step * self.walls.accelerations
-        source, found = self._source(sums, velocities, time_step, later), sums.surface
+        source, found = self._source(operators, velocities, time_step, later), operators.surface
         if found is not None:
             source[found.alone] = 0.0
-        jump = self.rows.jump(accelerations, self.density, sums.ways())
-        equation = self.rows.equation(sums.places, sums.rows, jump, found)
+        jump = self.assembly.jump(accelerations, self.density, operators.way())
+        equation = self.assembly.equation(operators.particles, operators.interpolation, jump, found)
         right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.known
         guess = np.concatenate((self.fluid[equation.order], self.on_walls))
-        floor = self._rounding(sums, velocities, accelerations, time_step) * math.sqrt(len(right))
+        floor = self._rounding(operators, velocities, accelerations, time_step) * math.sqrt(len(right))
         solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance, floor=floor)
         self.iterations, self.residual = solution.iterations, solution.residual
         self.keep(equation, solution.values)
-        return self.with_walls(sums, self.fluid, self.on_walls, jump)
+        return self.with_walls(operators, self.fluid, self.on_walls, jump)
 
-    def keep(self, equation: Equation, values: Array) -> None:
+    def keep(self, equation: PressureEquation, values: Array) -> None:
         """Keep the solution of an equation, in its order."""
         count = len(self.fluid)
         self.fluid = np.empty(count)
         self.fluid[equation.order] = values[:count]
         self.on_walls = values[count:]
 
-    def _source(self, sums: Sums, velocities: Array, step: float, later: float) -> Array:
+    def _source(self, operators: DifferentialOperators, velocities: Array, step: float, later: float) -> Array:
         """(N,), (1 - alpha) rho div u / dt - alpha (rho_particles - rho) / dt^2."""
-        source = (1.0 - self.alpha) * self.density * sums.divergence(velocities, later) / step
+        source = (1.0 - self.alpha) * self.density * operators.divergence(velocities, later) / step
         if self.alpha:
-            source -= self.alpha * self.density * self.crowding(sums) / step / step
+            source -= self.alpha * self.density * self.crowding(operators) / step / step
         return source
 
-    def crowding(self, sums: Sums) -> Array:
+    def crowding(self, operators: DifferentialOperators) -> Array:
         """(N,), (rho_particles - rho) / rho that the pressure relieves."""
-        crowding = sums.concentration() - 1.0
-        if sums.surface is not None:  # a neighbourhood that ends at the surface is not thin
-            near = sums.surface.near
+        crowding = operators.concentration() - 1.0
+        if operators.surface is not None:  # a neighbourhood that ends at the surface is not thin
+            near = operators.surface.near
             crowding[near] = np.maximum(crowding[near], 0.0)
-        if self.rows.on_wall:  # whose rows have no density: what is even cannot be relieved, so it drives nothing
+        if self.assembly.on_wall:  # whose rows have no density: what is even cannot be relieved, so it drives nothing
             crowding -= crowding.mean()
         return crowding
 
-    def _rounding(self, sums: Sums, velocities: Array, accelerations: Array, step: float) -> float:
+    def _rounding(
+        self, operators: DifferentialOperators, velocities: Array, accelerations: Array, step: float
+    ) -> float:
         """The size of a source that is nothing but rounding of its terms, on a particle.
 
         Where a flow is at rest, uniform or parallel these cancel, and what is left is judged by their own sizes: places
         over the smoothing length, which the density knows, and velocities over it, those that walls balance included.
         """
-        h = sums.how.kernel.h
+        h = operators.how.kernel.h
         speed = np.abs(velocities).max(initial=0.0) + step * np.abs(accelerations).max(initial=0.0)
-        place = 1.0 + np.abs(sums.places.positions).max(initial=0.0) / h
+        place = 1.0 + np.abs(operators.particles.positions).max(initial=0.0) / h
         rate = speed / h + self.alpha * place / step
         return float(ROUNDED * self.density * rate / step)
 
     def wall_source(self, accelerations: Array) -> Array:
         """(S,), n . grad p = rho n . a over the spacing, at particles on walls that have a pressure of their own."""
-        on, walls = self.rows.on_wall, self.walls
+        on, walls = self.assembly.on_wall, self.walls
         if not on or walls is None:
             return np.zeros(0)
         slope = (accelerations[:on] * walls.normals[:on]).sum(axis=1)
         result: Array = self.density * slope / self.spacing
         return result
 
-    def with_walls(self, sums: Sums, fluid: Array, on_walls: Array, jump: Array) -> Array:
+    def with_walls(self, operators: DifferentialOperators, fluid: Array, on_walls: Array, jump: Array) -> Array:
         """(N + W,), the pressure of the fluid (N,) and of wall particles, those on walls having their own (S,)."""
-        if sums.rows is None:
+        walls, interpolation = self.walls, operators.interpolation
+        if walls is None or interpolation is None:
             return fluid
-        if self.rows.nearest is not None:
-            behind = self.rows.nearest @ on_walls
-            behind[self.rows.on_wall :] += jump
-            return np.concatenate((fluid, behind))
-        mirrored = sums.rows.mirrored @ fluid
-        return np.concatenate((fluid, mirrored + jump if len(jump) else mirrored))
+        behind = walls.model.pressures_behind(walls, interpolation, fluid, on_walls, jump)
+        return np.concatenate((fluid, behind))

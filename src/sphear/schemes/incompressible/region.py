@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Circle, Dummies, Rectangle, Shape, check_room, dummies, repeated
+from sphear.boundaries.shapes.base import Foot
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
@@ -20,8 +21,6 @@ from sphear.schemes.problem import Problem
 Array = np.ndarray[Any, Any]
 
 LITTLE = 1e-6  # spacings from a wall, and of its speed: as good as nothing
-TOO_NEAR = 0.3  # spacings between particles on walls; those in right corners are half of one from the next
-FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 
 
 def region(problem: Problem) -> Shape | None:
@@ -101,63 +100,36 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
     behind = dummies(shape, dx, math.ceil(supports * kernel.radius / dx) * dx, window)
     if not len(behind.positions):
         return None
-    if settings.walls == "sfdi":
-        behind = _with_row_on_walls(behind, dx, window)
+    model = settings.wall_model
+    behind = model.wall_particles(behind, dx, window)
     domain = window if any(problem.periodic) else None
-    return Walls(
-        behind,
-        dx,
-        kernel,
-        domain,
-        settings.continuation,
-        settings.walls == "adami",
-        problem.free_surface,
-        accelerations(shape, behind, dx, window),
-        curvatures(shape, behind, dx, window),
-    )
+    turning, bent = accelerations(shape, behind, dx, window), curvatures(shape, behind, dx, window)
+    return Walls(behind, dx, kernel, domain, model, problem.free_surface, turning, bent)
 
 
 def curvatures(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
     """(W,): of the walls at the feet of dummies, 1 / R around fluid in a circle, -1 / R around a cylinder, else 0."""
     result = np.zeros(len(behind.positions))
-    for primitive, inverted in shape.primitives():
-        if isinstance(primitive, Circle) and primitive.slips:
-            distance = np.abs(repeated(primitive, window).distance(behind.feet))
-            result[distance < LITTLE * spacing] = (-1.0 if inverted else 1.0) / primitive.radius
+    for circle, inverted, feet in _circles(shape, behind, window):
+        if circle.slips:
+            own = np.abs(feet.distance) < LITTLE * spacing
+            result[own] = (-1.0 if inverted else 1.0) / circle.radius
     return result
 
 
 def accelerations(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
     """(W, d): (u . grad) u of the walls at the feet of dummies, spin x u of a circle that turns, else zero."""
     result = np.zeros_like(behind.velocities)
-    for primitive, _ in shape.primitives():
-        if isinstance(primitive, Circle) and primitive.spin:
-            wall = repeated(primitive, window).foot(behind.feet)
-            off = np.abs(wall.velocity - behind.velocities).max(axis=1)
-            own = (np.abs(wall.distance) < LITTLE * spacing) & (off < LITTLE * abs(primitive.spin) * primitive.radius)
-            result[own] = primitive.spin * np.column_stack((-behind.velocities[own, 1], behind.velocities[own, 0]))
+    for circle, _, feet in _circles(shape, behind, window):
+        if circle.spin:
+            off = np.abs(feet.velocity - behind.velocities).max(axis=1)
+            own = (np.abs(feet.distance) < LITTLE * spacing) & (off < LITTLE * abs(circle.spin) * circle.radius)
+            result[own] = circle.spin * np.column_stack((-behind.velocities[own, 1], behind.velocities[own, 0]))
     return result
 
 
-def _with_row_on_walls(behind: Dummies, dx: float, window: Domain) -> Dummies:
-    """The dummies after particles on the walls, at the feet of the first row, each some way from the others."""
-    first = behind.depths < FIRST_ROW * dx
-    feet, normals, velocities = behind.feet[first], behind.normals[first], behind.velocities[first]
-    feet = window.wrapped(feet)
-    places, source = window.with_images(feet, dx)
-    taken, kept = np.zeros(len(feet), bool), []
-    for k, listed in enumerate(cKDTree(places).query_ball_point(feet, TOO_NEAR * dx)):
-        if taken[k]:
-            continue
-        near = source[listed]
-        taken[near] = True  # in a corner the feet of several are one, which faces as they do in the mean
-        mean = normals[near].mean(axis=0)
-        length = np.hypot(*mean)
-        normals[k] = mean / length if length > 0 else normals[k]
-        kept.append(k)
-    return Dummies(
-        np.concatenate((feet[kept], behind.positions)),
-        np.concatenate((np.zeros(len(kept)), behind.depths)),
-        np.concatenate((normals[kept], behind.normals)),
-        np.concatenate((velocities[kept], behind.velocities)),
-    )
+def _circles(shape: Shape, behind: Dummies, window: Domain) -> Iterator[tuple[Circle, bool, Foot]]:
+    """The circles of a shape, whether each is a solid in it, and their walls' points nearest to the feet of dummies."""
+    for primitive, inverted in shape.primitives():
+        if isinstance(primitive, Circle) and (primitive.slips or primitive.spin):
+            yield primitive, inverted, repeated(primitive, window).foot(behind.feet)

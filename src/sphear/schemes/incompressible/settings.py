@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Literal, Self
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal, Self
 
 from pydantic import Field, field_validator, model_validator
 
+from sphear.boundaries.models import WALL_MODELS, WallModel
+from sphear.boundaries.models.base import Continuation, Divergence
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, RunSettings, Scheme
-from sphear.schemes.objects import CorrectionSetting, KernelSetting, Term, text
+from sphear.schemes.flat_settings import FlatSetting
+from sphear.schemes.objects import (
+    CorrectionSetting,
+    KernelSetting,
+    PreconditionerSetting,
+    ShiftingSetting,
+    Term,
+    WallModelSetting,
+    text,
+)
+from sphear.shifting import SHIFTING, ShiftingMethod
 
 LEAST_STEPS = 100  # of a run by implicit viscous steps
 
@@ -38,18 +51,21 @@ class Incompressible(Scheme):
         projection: where particles are when forces act on them: half a step on, at the "midpoint"; at the "start" of
             the step; or there for viscosity and at the "intermediate" places r* = r + u* dt (eq. 9) for pressure, which
             takes one neighbour search more.
-        walls: how walls enter the pressure equation: dummy particles with the pressure at their "mirror_points", or
-            that of the fluid before them ("adami", 2012), both continued with the normal gradient; particles on the
-            wall with equations of their own ("sfdi", as in the paper); or "natural", by leaving them out.
+        walls: the wall model, by which walls enter the pressure equation: dummy particles with the pressure at their
+            "mirror_points", or that of the fluid before them ("adami", 2012), both continued with the normal gradient;
+            particles on the wall with equations of their own ("sfdi", as in the paper); or "natural", by leaving them
+            out. As an object, such as `MirrorPoints(continuation="linear")`, it says the next two as well.
         continuation: how the velocity is continued behind walls in the viscous term: "mirror", "linear", "quadratic";
             or not at all, "wall": dummy particles have that of the wall.
         wall_divergence: velocity of dummy particles along the wall in the divergence: the fluid's own, "slipping", or
             the one that is "continued" for the viscous term.
-        shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009).
+        shifting: "none", "lind" (Lind et al. 2012) or "xu" (Xu, Stansby & Laurence 2009), or an object such as
+            `Lind(strength=1)`, which says the next one as well.
         shifting_strength: factor of the shifting, 1 for that of its source; half of it keeps particles as regular and
             costs half the energy.
         viscous_step: "explicit", "crank_nicolson" or "backward_euler"; these two have no viscous limit.
-        preconditioner: of the pressure equation, "grid", "amg" or "jacobi".
+        preconditioner: of the pressure equation, "grid", "amg" or "jacobi", or an object such as
+            `Grid(coarsening=3)`.
         tolerance: relative residual of the pressure equation.
         time_step: None takes the least of the CFL, viscous, body-force and shifting limits; with implicit viscous steps
             no more than a hundredth of the run.
@@ -59,6 +75,10 @@ class Incompressible(Scheme):
     """
 
     name: ClassVar[str] = "incompressible"
+    flat: ClassVar[Mapping[str, FlatSetting]] = {
+        "walls": FlatSetting(WallModel, WALL_MODELS, {"continuation": "continuation", "divergence": "wall_divergence"}),
+        "shifting": FlatSetting(ShiftingMethod, SHIFTING, {"strength": "shifting_strength"}),
+    }
 
     viscosity: Term = "fatehi_manzari"
     correction: CorrectionSetting = "none"
@@ -70,17 +90,18 @@ class Incompressible(Scheme):
     laplacian: Term = "morris"
     alpha: float | None = Field(default=None, ge=0, le=1)
     projection: Literal["midpoint", "intermediate", "start"] = "midpoint"
-    walls: Literal["mirror_points", "adami", "sfdi", "natural"] = "mirror_points"
-    continuation: Literal["mirror", "linear", "quadratic", "wall"] = "quadratic"
-    wall_divergence: Literal["slipping", "continued"] = "slipping"
-    shifting: Literal["none", "lind", "xu"] = "lind"
+    walls: WallModelSetting = "mirror_points"
+    continuation: Continuation = "quadratic"
+    wall_divergence: Divergence = "slipping"
+    shifting: ShiftingSetting = "lind"
     shifting_strength: float = Field(default=0.5, gt=0, allow_inf_nan=False)
     viscous_step: Literal["explicit", "crank_nicolson", "backward_euler"] = "explicit"
-    preconditioner: str = "grid"
+    preconditioner: PreconditionerSetting = "grid"
     tolerance: float = Field(default=1e-4, gt=0, lt=1)
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
+        self._settle()
         if self.gradient == "symmetric" and self.gradient_correction != "none":
             raise SphearError(
                 f"gradient=symmetric conserves momentum and gradient_correction={text(self.gradient_correction)} does"
@@ -93,6 +114,26 @@ class Incompressible(Scheme):
             )
         return self
 
+    @property
+    def wall_model(self) -> WallModel:
+        """The wall model, with its continuation and divergence."""
+        found: WallModel = self._object("walls")
+        return found
+
+    @property
+    def shifting_method(self) -> ShiftingMethod:
+        """The way of shifting, with its strength."""
+        found: ShiftingMethod = self._object("shifting")
+        return found
+
+    def _beside(self) -> dict[str, Any]:
+        """The fields of a named wall model and shifting, where nobody says others."""
+        found: dict[str, Any] = {}
+        for key, setting in self.flat.items():
+            value = getattr(self, key)
+            found |= setting.said_by(setting.named[value] if isinstance(value, str) else value)
+        return found
+
     def accurate_step(self, duration: float) -> float:
         """A hundredth of the run by implicit viscous steps: nothing else limits them where a flow is slow."""
         return math.inf if self.viscous_step == "explicit" else duration / LEAST_STEPS
@@ -100,7 +141,7 @@ class Incompressible(Scheme):
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return {
             **dict.fromkeys(("walls", "continuation", "wall_divergence"), (OPEN, not walled)),
-            "shifting_strength": ("shifting=none", self.shifting == "none"),
+            "shifting_strength": (f"shifting={text(self.shifting)}", not hasattr(self.shifting_method, "strength")),
         }
 
 

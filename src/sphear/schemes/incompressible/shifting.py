@@ -1,73 +1,58 @@
-"""Where particles are moved beside the flow, so that they stay evenly spread."""
+"""The displacement of particles beside the flow, so that they stay evenly spread."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from sphear.algebra import Scalar, Vector, dot, scale, sqrt, where_less
-from sphear.interactions import Part, Rates, Shifting
+from sphear.interactions import Rates
 from sphear.kernels import Kernel
+from sphear.schemes.incompressible.differential_operators import DifferentialOperators
+from sphear.schemes.incompressible.free_surface import along_surface
+from sphear.schemes.problem import Problem
+from sphear.shifting import ShiftingMethod
 
 Array = np.ndarray[Any, Any]
 
-XU_STRENGTH = 0.04  # C of the source, which takes 0.01 to 0.1
 UNEVENNESS = 0.02  # spacings, by which particles leave a line while it is stretched e-fold
 LEAST_STRETCHING = 1e-6  # of the expected speed over a spacing: parallel flow stretches by rounding only
 
 
-@dataclass(frozen=True)
-class XuShifting(Part):
-    """The drift C U R_i, R_i = sum_j (rbar_i / r_ij)^2 r_ij / r_ij, rbar_i the mean of the r_ij; at most U / 2.
-
-    Xu, Stansby & Laurence 2009, Accuracy and stability in incompressible SPH based on the projection method and a new
-    approach, J. Comput. Phys. 228:6703, eqs. 31 to 34, over the time step.
+class Displacement:
+    """Shifts the particles of a flow by a method's drift, and off lines that the flow stretches.
 
     Args:
-        kernel: its support is where neighbours are counted.
-        strength: C.
-        speed: U, the largest expected.
-    """
-
-    kernel: Kernel
-    strength: float
-    speed: float
-
-    role = "drift"
-
-    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> tuple[Vector, Any]:
-        """The pair's part of R and of the mean distance."""
-        # a particle without volume, on a wall, counts for nothing
-        near = where_less(r2, self.kernel.radius**2, other.volume / own.volume, 0.0)
-        r = sqrt(r2)
-        return tuple(0.0 for _ in d), (scale(near / (r2 * r), d), near * r, near)
-
-    def finish(self, own: Any, sums: Any) -> Vector:
-        """The drift, limited."""
-        direction, distances, number = sums
-        mean = distances / where_less(0.5, number, number, 1.0)
-        wanted = scale(self.strength * self.speed * mean * mean, direction)
-        size, most = sqrt(dot(wanted, wanted)), 0.5 * self.speed
-        return scale(where_less(most, size, most / where_less(most, size, size, 1.0), 1.0), wanted)
-
-
-def drift(shifting: str, kernel: Kernel, strength: float, speed: float, spacing: float) -> Rates | None:
-    """The interaction whose result is the velocity with which particles are shifted; None for none.
-
-    Args:
-        shifting: "none", "lind" or "xu".
+        method: of shifting.
+        problem: what is computed.
         kernel: with its smoothing length.
-        strength: over that of the sources.
-        speed: the largest expected.
-        spacing: of the particles.
+        seed: of the random vectors.
     """
-    if shifting == "none":
-        return None
-    if shifting == "xu":
-        return Rates((XuShifting(kernel, XU_STRENGTH * strength, speed),))
-    return Rates((Shifting(kernel, strength, speed, spacing),))
+
+    def __init__(self, method: ShiftingMethod, problem: Problem, kernel: Kernel, seed: int) -> None:
+        drift = method.drift(kernel, problem.speed, problem.spacing)
+        self.drift = None if drift is None else Rates((drift,))
+        self.least = LEAST_STRETCHING * problem.speed / problem.spacing
+        self.uneven = unevenness(len(problem.positions), problem.positions.shape[1], problem.spacing, seed)
+
+    def of(self, operators: DifferentialOperators, velocities: Array, step: float, moved: float) -> tuple[Array, Array]:
+        """The displacement (N, d) of a step, and what moving by it changes in the velocities (N, d).
+
+        Args:
+            operators: where forces act.
+            velocities: (N, d), after the step.
+            step: dt.
+            moved: for how long particles move with them from there.
+        """
+        if self.drift is None:
+            return np.zeros_like(velocities), np.zeros_like(velocities)
+        # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
+        count, d = velocities.shape
+        slopes = operators.slopes(operators.slipping(velocities, moved)).reshape(count, d, d)
+        stretched = stretching(slopes, self.least)
+        shift = step * (operators.particles.sum(self.drift) + stretched[:, None] * self.uneven)
+        shift = shift if operators.surface is None else along_surface(shift, operators.surface)
+        return shift, np.einsum("nab,nb->na", slopes, shift)
 
 
 def unevenness(count: int, dimension: int, spacing: float, seed: int) -> Array:

@@ -1,4 +1,4 @@
-"""What neighbours that are missing outside a free surface would add to the sums over pressures.
+"""Sums over pressures with the neighbours that are missing outside a free surface.
 
 Sums that leave them out know nothing of the pressure zero outside: the gradient of differences p_j - p_i drives a
 particle on the surface inwards when its pressure rises, a projection with it grows what it should take away. So the
@@ -20,27 +20,27 @@ from sphear.corrections import NoCorrection
 from sphear.interactions import Gradient
 from sphear.interactions.free_surface import LaplacianMoments
 from sphear.schemes.incompressible.free_surface import Surface
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 
 Array = np.ndarray[Any, Any]
 
 LEAST, MOST = 1.0, 3.0  # times p_i, that it falls to its missing neighbours: to zero; 2.45 on a plane surface
 
 
-def missing_weights(places: Places, found: Surface, moments: LaplacianMoments, preparation: Any) -> Array:
-    """What the missing neighbours add to the diagonal of a Laplacian, (N,); not positive.
+def missing_weights(particles: ParticleSums, found: Surface, moments: LaplacianMoments, preparation: Any) -> Array:
+    """(N,), the part of the missing neighbours in the diagonal of a Laplacian; not positive.
 
     The first moment of the weights of a lattice vanishes: summed over those missing, w_ij (p_j - p_i) is
     -|sum_j w_ij (r_j - r_i)| p_i / depth_i of those that are there. In a sheet of one particle these balance: there it
     is at least the missing weights times a spacing, over the depth of half a spacing.
 
     Args:
-        places: of fluid and walls.
+        particles: of fluid and walls.
         found: the surface.
         moments: of the Laplacian.
         preparation: that it needs.
     """
-    sums = places.sum(moments, preparation)
+    sums = particles.sum(moments, preparation)
     share = np.maximum(1.0 / found.concentration - 1.0, 0.0)
     sheet = np.where(found.on, 2.0 * found.depth * sums[:, 0] * share, 0.0)
     first = np.linalg.norm(sums[:, 1:], axis=1)
@@ -48,7 +48,7 @@ def missing_weights(places: Places, found: Surface, moments: LaplacianMoments, p
     return result
 
 
-def surface_gradient(places: Places, found: Surface, pressures: Array) -> Array:
+def surface_gradient(particles: ParticleSums, found: Surface, pressures: Array) -> Array:
     """(N, d), grad p with the missing neighbours, to be taken near the surface.
 
         grad p_i = sum_j V_j (p_j - p_i) grad W_ij + k_i p_i sum_j V_j grad W_ij
@@ -58,12 +58,12 @@ def surface_gradient(places: Places, found: Surface, pressures: Array) -> Array:
     be the symmetric sum of p_j + p_i.
 
     Args:
-        places: of fluid and walls.
+        particles: of fluid and walls.
         found: the surface.
         pressures: (P,), of both.
     """
-    count = places.count
-    plain = places.sum(Gradient(places.kernel, NoCorrection(), True), None, values=pressures[:, None])
+    count = particles.count
+    plain = particles.sum(Gradient(particles.kernel, NoCorrection(), True), None, values=pressures[:, None])
     short = 1.0 - np.einsum("na,nab,nb->n", found.inward, found.moment, found.inward)
     length = found.depth * np.linalg.norm(found.slope, axis=1)
     fall = np.clip(short / np.maximum(length, 1e-300), LEAST, MOST)

@@ -12,7 +12,7 @@ from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.pressure.krylov import bicgstab
 from sphear.pressure.vectors import norm
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.viscosity import ViscousTerm
 from sphear.viscosity.base import uncorrected
 
@@ -42,10 +42,10 @@ class Viscous:
 
     @property
     def of_all(self) -> bool:
-        """Whether a sum knows sums of its neighbours, so that wall particles need theirs too."""
+        """A sum knows sums of its neighbours, so that wall particles need theirs too."""
         return len(self.stages) > 1
 
-    def acceleration(self, places: Places, velocities: Array, count: int, near: Array | None = None) -> Array:
+    def acceleration(self, particles: ParticleSums, velocities: Array, count: int, near: Array | None = None) -> Array:
         """(N, d).
 
         Corrections need neighbours on all sides: of particles with too few, and near a free surface, it is the
@@ -53,24 +53,24 @@ class Viscous:
         stress there.
 
         Args:
-            places: of the N particles and walls; of both as particles where `of_all`.
+            particles: the N of the fluid and those of walls; of both as particles where `of_all`.
             velocities: (N + W, d), of the fluid and, continued, behind walls.
             count: N.
             near: (N,), which particles are near a free surface; None without one.
         """
         fields: dict[str, Array] = {
             "velocity": velocities,
-            "density": np.ones(places.total),
-            "dynamic_viscosity": np.full(places.total, self.kinematic_viscosity),
+            "density": np.ones(particles.total),
+            "dynamic_viscosity": np.full(particles.total, self.kinematic_viscosity),
         }
         lacking = np.empty(0, np.int64)
         if self.preparation is not None:
-            lacking = places.deficient(self.preparation)
+            lacking = particles.deficient(self.preparation)
             lacking = lacking if near is None else np.union1d(lacking, np.flatnonzero(near))
         for stage, plain in zip(self.stages, self.plain, strict=True):
-            result = places.sum(stage, self.preparation, **fields)
+            result = particles.sum(stage, self.preparation, **fields)
             if len(lacking):
-                result[lacking] = places.sum(plain, None, **fields)[lacking]
+                result[lacking] = particles.sum(plain, None, **fields)[lacking]
             fields["before"] = result
         return fields["before"][:count]
 

@@ -1,13 +1,15 @@
-"""Wall particles, and what the fluid before a wall says of the fields behind it."""
+"""Wall particles, and the fields of the fluid before a wall that they take behind it."""
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
+from sphear.boundaries.models import WallModel
 from sphear.boundaries.shapes import Dummies
 from sphear.boundaries.shapes.base import slipping
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
@@ -15,20 +17,19 @@ from sphear.interactions.point_fit import LEAST_PIVOT, PointFit, PointWeights
 from sphear.interactions.wall_fit import WallFit, WallWeights
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
-from sphear.schemes.incompressible.places import Places
+from sphear.schemes.incompressible.particle_sums import ParticleSums
 
 Array = np.ndarray[Any, Any]
 
-MIRROR_REACH, CONTINUATION_REACH = 3.0, 3.5  # spacings: some 14 particles for a plane, 20 before a wall for a parabola
+NORMAL_REACH, CONTINUATION_REACH = 3.0, 3.5  # spacings: some 20 particles before a wall for a parabola
 EQUAL = 1e-6  # spacings by which two distances may differ that are the same
 THIN = 0.03  # of a plane's fit over its weights, in smoothing lengths squared: that of two rows is four times that
-TERMS = {"linear": 1, "quadratic": 3}  # of the fit before a wall
 
 
-class WallRows(NamedTuple):
+class WallInterpolation(NamedTuple):
     """Fields of wall particles as sums over the fluid, one row (W, N) a wall particle.
 
-    mirrored: the value at its mirror point, or of the fluid around it (Adami).
+    mirrored: the value where the wall model takes it, at a mirror point or around the particle.
     continued: u - u_wall, from u_fluid - u_wall; None where it is the opposite of the mirrored.
     """
 
@@ -42,10 +43,9 @@ class Walls:
     Args:
         dummies: the wall particles; those of depth 0 are on the walls and come first.
         spacing: of the particles.
-        kind: a kernel, of which the fits take their form.
+        kernel: of the scheme, of which the fits take their form.
         domain: with its periodic axes.
-        continuation: how velocities are continued: "mirror", "linear", "quadratic" or not, "wall".
-        adami: fields are those of the fluid around a dummy, not at its mirror point.
+        model: how they take fields of the fluid.
         free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
         accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
         curvatures: (W,), of the walls at the feet, positive around fluid; None is none.
@@ -55,15 +55,14 @@ class Walls:
         self,
         dummies: Dummies,
         spacing: float,
-        kind: Kernel,
+        kernel: Kernel,
         domain: Domain | None,
-        continuation: str,
-        adami: bool,
+        model: WallModel,
         free_surface: bool = False,
         accelerations: Array | None = None,
         curvatures: Array | None = None,
     ) -> None:
-        self.dummies, self.spacing, self.domain, self.adami = dummies, spacing, domain, adami
+        self.dummies, self.spacing, self.domain, self.model = dummies, spacing, domain, model
         self.count = len(dummies.positions)
         self.on_wall = int((dummies.depths <= 0).sum())
         self.depths, self.normals, self.slips = dummies.depths, dummies.normals, slipping(dummies.velocities)
@@ -72,34 +71,30 @@ class Walls:
         self.curvatures = np.zeros(self.count) if curvatures is None else curvatures
         self.feet = dummies.feet
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
-        self.mirrors = dummies.positions if adami else self.images
         self.least_pivot = THIN if free_surface else LEAST_PIVOT
-        self.continuation = continuation
-        self.terms = TERMS.get(continuation, 0)
-        # a dummy that is a neighbour of the fluid has fluid around it
-        self._mirror_kernel = kind if adami else type(kind)(MIRROR_REACH * spacing / kind.support)
-        self._continuation_kernel = type(kind)(CONTINUATION_REACH * spacing / kind.support)
+        self.sampling = model.sampling(dummies, kernel, spacing)
+        self._continuation_kernel = type(kernel)(CONTINUATION_REACH * spacing / kernel.support)
+        self._normal_kernel = type(kernel)(NORMAL_REACH * spacing / kernel.support)
         deepest = float(dummies.depths.max(initial=0.0))
-        self.reach = max(deepest + self._mirror_kernel.radius, self._continuation_kernel.radius)
+        self.reach = max(deepest + self.sampling.kernel.radius, self._continuation_kernel.radius)
 
-    def rows(self, positions: Array, distances: Array) -> WallRows:
-        """The rows for fluid at `positions` (N, d), so far from the walls (N,)."""
+    def interpolation(self, positions: Array, distances: Array) -> WallInterpolation:
+        """The fields of wall particles from fluid at `positions` (N, d), so far from the walls (N,)."""
         near = np.flatnonzero(distances < self.reach)
-        fit = PointFit(self._mirror_kernel, 0 if self.adami else 1, self.least_pivot)
-        mirrored = self._matrix(
-            self.mirrors, positions, near, self._mirror_kernel, fit, PointWeights(self._mirror_kernel)
-        )
-        if not self.terms:
-            return WallRows(mirrored, None)
+        points, kernel, order = self.sampling
+        fit = PointFit(kernel, order, self.least_pivot)
+        mirrored = self._matrix(points, positions, near, kernel, fit, PointWeights(kernel))
+        if not (terms := self.model.terms):
+            return WallInterpolation(mirrored, None)
         kernel = self._continuation_kernel
         fields = {
             "depth": np.concatenate((self.depths, distances[near])),
             "normal": np.concatenate((self.normals, np.zeros((len(near), positions.shape[1])))),
         }
         before = self._matrix(
-            self.feet, positions, near, kernel, WallFit(kernel, self.terms), WallWeights(kernel, self.terms), fields
+            self.feet, positions, near, kernel, WallFit(kernel, terms), WallWeights(kernel, terms), fields
         )
-        return WallRows(mirrored, before)
+        return WallInterpolation(mirrored, before)
 
     def _matrix(
         self,
@@ -112,10 +107,10 @@ class Walls:
         fields: dict[str, Array] | None = None,
     ) -> csr_array:
         """One row (N,) a point, from the particles near walls; points have no volume, so they are no neighbours."""
-        places = np.concatenate((points, positions[near]))
-        volume = np.full(len(places), self.spacing ** positions.shape[1])
+        everything = np.concatenate((points, positions[near]))
+        volume = np.full(len(everything), self.spacing ** positions.shape[1])
         volume[: len(points)] = 0.0
-        around = Places(places, len(points), kernel, volume, self.domain, 1, coincident=True)
+        around = ParticleSums(everything, len(points), kernel, volume, self.domain, 1, coincident=True)
         around.fields.update(fields or {})
         column = np.concatenate((np.zeros(len(points), np.int32), near.astype(np.int32)))
         matrix = around.matrix(weights, fit, column, len(positions))
@@ -124,80 +119,55 @@ class Walls:
         back[around.neighbours.rows] = np.arange(len(points), dtype=np.int32)
         return matrix[back]
 
-    def continued(self, rows: WallRows, velocities: Array) -> Array:
+    def continued(self, interpolation: WallInterpolation, velocities: Array) -> Array:
         """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it.
 
         Behind walls that fluid slips along they are mirrored, so that nothing is sheared there.
         """
-        if self.continuation == "wall":
-            behind = self.velocities
-        elif rows.continued is None:
-            behind = 2.0 * self.velocities - rows.mirrored @ velocities
-            behind[: self.on_wall] = self.velocities[: self.on_wall]
-        else:
-            total = np.asarray(rows.continued.sum(axis=1)).reshape(-1, 1)
-            behind = rows.continued @ velocities + (1.0 - total) * self.velocities
+        behind = self.model.continued(self, interpolation, velocities)
         if self.slips.any():
-            behind = np.where(self.slips[:, None], self._sheared_by_nothing(rows, velocities), behind)
+            behind = np.where(self.slips[:, None], self._sheared_by_nothing(interpolation, velocities), behind)
         return np.concatenate((velocities, behind))
 
-    def _sheared_by_nothing(self, rows: WallRows, velocities: Array) -> Array:
+    def _sheared_by_nothing(self, interpolation: WallInterpolation, velocities: Array) -> Array:
         """(W, d): velocities behind walls that no shear stress is on.
 
         Along a straight wall they are the fluid's; along a circle they grow with the distance from its centre, as where
         fluid turns with it.
         """
-        behind = self.slipping(rows, velocities)[len(velocities) :]
+        behind = self.slipping(interpolation, velocities)[len(velocities) :]
         across = (behind * self.normals).sum(axis=1, keepdims=True) * self.normals
         bent = (self.curvatures * self.depths)[:, None]
         result: Array = across + (behind - across) * (1.0 + bent) / (1.0 - bent)
         return result
 
-    def slipping(self, rows: WallRows, velocities: Array, since: float = 0.0) -> Array:
+    def slipping(self, interpolation: WallInterpolation, velocities: Array, since: float = 0.0) -> Array:
         """(N + W, d): behind walls the velocity along the wall is the fluid's, that across it the opposite.
 
         Args:
-            rows: of the fluid.
+            interpolation: of the fluid's fields.
             velocities: (N, d), along the walls a time `since` after the particles were here.
             since: across walls that turn they then are, seen from here, that time times the walls' acceleration.
         """
-        behind = rows.mirrored @ velocities
+        behind = interpolation.mirrored @ velocities
         wall = self.velocities + since * self.accelerations
         across = ((behind - wall) * self.normals).sum(axis=1, keepdims=True)
         strength = np.where(self.depths > 0, 2.0, 1.0)[:, None]
         return np.concatenate((velocities, behind - strength * across * self.normals))
 
-    def ways(self, rows: WallRows, positions: Array) -> Array:
-        """(W, d): from wall particles to where the values that are mirrored to them are from.
-
-        That is across the wall to the mirror point; with Adami to the middle of the fluid around, in corners aside.
-
-        Args:
-            rows: of the fluid.
-            positions: (N, d), of the fluid.
-        """
-        if not self.adami:
-            return 2.0 * self.depths[:, None] * self.normals
-        weights = rows.mirrored
-        wall = np.repeat(np.arange(self.count), np.diff(weights.indptr))
-        way = positions[weights.indices] - self.dummies.positions[wall]
-        if self.domain is not None:
-            way = self.domain.shortest(way)
-        columns = [np.bincount(wall, weights.data * part, self.count) for part in way.T]
-        return np.stack(columns, axis=1)
-
-    def even(self, rows: WallRows, field: Array) -> Array:
+    def even(self, interpolation: WallInterpolation, field: Array) -> Array:
         """(N + W, ...): a field that is the same on both sides of walls."""
-        return np.concatenate((field, rows.mirrored @ field))
+        return np.concatenate((field, interpolation.mirrored @ field))
 
+    @cached_property
     def nearest_on_wall(self) -> csr_array:
         """(W, S): of each wall particle the one on the wall that is nearest, or the mean of those equally near."""
         if not self.on_wall:
             return csr_array((self.count, 0))
-        places, source = self.dummies.positions[: self.on_wall], np.arange(self.on_wall)
+        points, source = self.dummies.positions[: self.on_wall], np.arange(self.on_wall)
         if self.domain is not None:
-            places, source = self.domain.with_images(places, self.reach)
-        tree = cKDTree(places)
+            points, source = self.domain.with_images(points, self.reach)
+        tree = cKDTree(points)
         distance = np.asarray(tree.query(self.feet)[0])
         listed = tree.query_ball_point(self.feet, distance + EQUAL * self.spacing)
         numbers = np.array([len(found) for found in listed])
@@ -213,11 +183,11 @@ class Walls:
             column: (N + S,), of each particle, those on walls last.
             columns: their number.
         """
-        kernel = self._mirror_kernel
+        kernel = self._normal_kernel
         on = self.dummies.positions[: self.on_wall]
-        places = np.concatenate((on, positions))
-        around = Places(
-            places, len(on), kernel, np.full(len(places), self.spacing ** positions.shape[1]), self.domain, 1
+        points = np.concatenate((on, positions))
+        around = ParticleSums(
+            points, len(on), kernel, np.full(len(points), self.spacing ** positions.shape[1]), self.domain, 1
         )
         around.fields["normal"] = np.concatenate((self.normals[: len(on)], np.zeros_like(positions)))
         order = np.concatenate((column[len(positions) :], column[: len(positions)])).astype(np.int32)

@@ -63,7 +63,7 @@ def disorder(flow: IncompressibleFlow) -> float:
     from sphear.corrections import NoCorrection
     from sphear.interactions import Gradient
 
-    places = flow.discretisation.at(flow.positions).places
+    places = flow.discretisation.at(flow.positions).particles
     ones = np.ones((places.total, 1))
     sums = places.sum(Gradient(flow.kernel, NoCorrection(), False), None, values=ones)
     return float(np.sqrt((sums**2).sum(axis=1).mean()) * flow.problem.spacing)

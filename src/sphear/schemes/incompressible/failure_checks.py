@@ -1,4 +1,4 @@
-"""What ends a flow, and what keeps its particles before the walls."""
+"""Checks that end a flow, and keep its particles before the walls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ CLOSEST = 0.1  # spacings from a wall, to which a particle is put back
 BEYOND = 1.0  # spacings behind a wall, from which on a flow has failed
 
 
-class Guard:
+class FailureChecks:
     """Watches the particles of a flow.
 
     Args:

@@ -1,4 +1,4 @@
-"""The places of the particles at one moment, and what can be summed over them."""
+"""Sums over the neighbours of particles at one moment, and matrices of the same weights."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def in_box(positions: Array, domain: Domain | None) -> Array:
     return inside
 
 
-class Places:
+class ParticleSums:
     """Particles that sums are made for, and others that are only their neighbours.
 
     Args:
@@ -67,7 +67,7 @@ class Places:
         self._prepared: dict[Any, Prepared] = {}
 
     def prepared(self, interaction: Any) -> Prepared:
-        """What an interaction sums up beforehand, chunk by chunk; summed up once."""
+        """The numbers of an interaction that is summed up beforehand, chunk by chunk; summed up once."""
         if interaction not in self._prepared:
             sweep = Sweep(interaction, self.neighbours, self.fields)
 

@@ -1,0 +1,76 @@
+"""The discretisation of an incompressible flow: its walls, and the differential operators on its particles."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from sphear.kernels import Kernel
+from sphear.operators import arguments
+from sphear.schemes.incompressible.differential_operators import DifferentialOperators
+from sphear.schemes.incompressible.free_surface import wetted
+from sphear.schemes.incompressible.particle_sums import ParticleSums
+from sphear.schemes.incompressible.region import region, walls_of
+from sphear.schemes.incompressible.settings import Incompressible
+from sphear.schemes.incompressible.viscous import Viscous
+from sphear.schemes.problem import Problem
+
+Array = np.ndarray[Any, Any]
+
+
+class Discretisation:
+    """Turns the fields of a flow into sums over neighbours.
+
+    Args:
+        problem: what is computed.
+        settings: how.
+        kernel: with its smoothing length.
+        viscous: the viscous acceleration.
+        threads: to compute on.
+
+    Attributes:
+        region: of fluid; None without walls.
+        walls: the wall particles; None without walls.
+        domain: with the periodic axes; None without.
+        lattice_sum: sum_j V_j W_ij of a lattice.
+
+    Raises:
+        SphearError: there is no room for the fluid.
+    """
+
+    def __init__(
+        self, problem: Problem, settings: Incompressible, kernel: Kernel, viscous: Viscous, threads: int
+    ) -> None:
+        self.problem, self.kernel, self.viscous, self.threads = problem, kernel, viscous, threads
+        self.pressure_form, self.pressure_level = settings.gradient, settings.pressure_level
+        self.slips = settings.wall_model.divergence == "slipping"
+        self.correction = arguments.read_correction(settings.gradient_correction, None)
+        self.count = len(problem.positions)
+        self.region = region(problem)
+        self.domain = problem.window if any(problem.periodic) else None
+        self.walls = walls_of(problem, settings, kernel, 2 if viscous.of_all else 1)
+        self.lattice_sum = self._lattice_sum()
+
+    def _lattice_sum(self) -> float:
+        dx, d = self.problem.spacing, self.problem.positions.shape[1]
+        reach = int(self.kernel.radius / dx) + 1
+        axes = np.meshgrid(*[np.arange(-reach, reach + 1) * dx] * d)
+        r2 = sum(axis**2 for axis in axes)
+        inside = r2 < self.kernel.radius**2
+        return float(np.sum(self.kernel.value(r2[inside], d)) * dx**d)
+
+    def at(self, x: Array, distance: Array | None = None) -> DifferentialOperators:
+        """The operators on particles at x (N, d), so far from walls (N,) if that is known."""
+        walls, dx = self.walls, self.problem.spacing
+        everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
+        volume = np.full(len(everything), dx ** x.shape[1])
+        if walls is not None:
+            volume[self.count : self.count + walls.on_wall] = 0.0  # they have a pressure only
+            if self.problem.free_surface:
+                fluid = x if self.domain is None else self.domain.with_images(x, walls.reach)[0]
+                volume[self.count :] *= wetted(walls.images, fluid, dx)
+        particles = ParticleSums(everything, self.count, self.kernel, volume, self.domain, self.threads)
+        if walls is not None and self.region is not None and distance is None:
+            distance = self.region.distance(x)
+        return DifferentialOperators(self, particles, distance)

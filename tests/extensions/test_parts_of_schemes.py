@@ -1,0 +1,91 @@
+"""Ways of shifting, wall models and preconditioners of one's own, in a file each, by name and as objects."""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import sphear
+from sphear.interactions import Part
+from sphear.sweeps.plan import plan
+
+
+class Sideways(sphear.ShiftingMethod):
+    """Lind's, with a strength for each direction of time."""
+
+    strength: float = 2.0
+    backwards: float = 1.0
+
+    def drift(self, kernel: sphear.Kernel, speed: float, spacing: float) -> Part:
+        return sphear.Lind(self.strength * self.backwards).drift(kernel, speed, spacing)
+
+
+class Twins(sphear.MirrorPoints):
+    """The mirror points by another name."""
+
+
+class Diagonal(sphear.Preconditioner):
+    """Jacobi's by another name."""
+
+    build = sphear.Jacobi.build
+
+
+@pytest.fixture
+def own() -> None:
+    """Names for the three."""
+    sphear.shifting_method("sideways")(Sideways)
+    sphear.wall_model("twins")(Twins)
+    sphear.preconditioner("own_diagonal")(Diagonal)
+
+
+COMMON: dict[str, Any] = {"scheme": "incompressible", "resolution": 12, "reynolds": 10.0, "time_step": 1e-3}
+
+
+def after(**settings: Any) -> Any:
+    run = sphear.flow("cavity", **COMMON, **settings)
+    run.flow.advance(3)
+    return run.flow.velocities
+
+
+@pytest.mark.usefixtures("own")
+def test_they_are_taken_by_name() -> None:
+    found = after(shifting="sideways", walls="Twins", preconditioner="own_diagonal")
+    np.testing.assert_array_equal(found, after(shifting="lind", shifting_strength=2.0, preconditioner="jacobi"))
+
+
+@pytest.mark.usefixtures("own")
+def test_flat_settings_are_their_fields() -> None:
+    chosen = sphear.Incompressible(shifting="sideways", walls="twins", continuation="linear")
+    assert (chosen.shifting_method, chosen.wall_model) == (Sideways(), Twins("linear"))
+    assert chosen.shifting_strength == 2.0
+    assert sphear.Incompressible(shifting="sideways", shifting_strength=3.0).shifting_method == Sideways(3.0)  # type: ignore[call-arg]
+
+
+@pytest.mark.usefixtures("own")
+def test_what_flat_settings_do_not_say_stays_an_object() -> None:
+    item: Any = Sideways(backwards=0.5)  # type: ignore[call-arg]
+    chosen = sphear.Incompressible(shifting=item)
+    assert (chosen.shifting, chosen.shifting_method, chosen.shifting_strength) == (item, item, 2.0)
+    assert chosen.model_dump(mode="json")["shifting"] == "Sideways(strength=2.0, backwards=0.5)"
+    assert sphear.Incompressible(**dict(chosen)) == chosen
+    np.testing.assert_array_equal(after(shifting=item), after(shifting_strength=1.0))
+
+
+@pytest.mark.usefixtures("own")
+def test_a_sweep_sends_the_object_along_with_its_name() -> None:
+    (run,) = plan("cavity", {"shifting": ["sideways"]}, {**COMMON, "walls": "twins", "until": 0.1})
+    sent = {key: value.item for key, value in run.sent.items() if key in ("shifting", "walls")}
+    assert sent == {"shifting": Sideways(), "walls": Twins()}
+    assert pickle.loads(pickle.dumps(sent)) == sent
+
+
+def test_one_without_its_method_is_refused() -> None:
+    class NoDrift(sphear.ShiftingMethod): ...
+
+    with pytest.raises(sphear.SphearError, match="the class NoDrift lacks the method drift of ShiftingMethod"):
+        sphear.shifting_method("no_drift")(NoDrift)
+    with pytest.raises(sphear.SphearError, match=r"@sphear\.wall_model names a class derived from sphear\.WallModel"):
+        sphear.wall_model("walls")(NoDrift)  # type: ignore[type-var]
