@@ -65,3 +65,19 @@ def test_explicit_steps_do_not_follow_the_run() -> None:
     chosen = {"scheme": "incompressible", "reynolds": 1.0, "resolution": 13}
     short, long = (sphear.FlowRun(case, case.settings(**chosen, until=until)) for until in (1e-3, 5.0))
     assert short.flow.time_step == long.flow.time_step
+
+
+def test_long_steps_of_a_slow_cavity_do_not_ring() -> None:
+    """By Crank and Nicolson alone, where fluid feels its walls in a twentieth of a step, it fails at t = 1.67."""
+    done = implicit("cavity", 1.8, resolution=29)
+    assert done.end == "time"
+    assert done.history[-1]["kinetic_energy"] == pytest.approx(0.0335, rel=0.01)  # of a grid program
+
+
+def test_steps_beside_a_free_surface_are_at_most_a_hundred_viscous_ones() -> None:
+    """Beyond thousands of them the surface of a slow flow makes energy, or nothing is solved."""
+    flow = sphear.flow(
+        "dam-break", scheme="incompressible", reynolds=1e-3, resolution=13, viscous_step="crank_nicolson"
+    ).flow
+    explicit = flow.problem.time_step_limits(flow.kernel.h, 0.0, flow.term.radial)["viscous"]
+    assert flow.time_step == pytest.approx(100 * explicit)

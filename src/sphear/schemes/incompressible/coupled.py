@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,8 @@ from sphear.schemes.problem import Problem
 Array = np.ndarray[Any, Any]
 
 START = 3  # steps by backward Euler, which damps what a sudden start excites (Rannacher 1984): of second order still
-DAMPING = 2.0  # share of the end of a step beyond a half, over the step in L / U: of second order still
+# share of the end of a step beyond a half, over the step in the flow's own time: of second order still
+DAMPING = 2.0
 
 
 class Coupled:
@@ -39,7 +41,8 @@ class Coupled:
         pressures: the pressure equation, and where the pressure is kept.
         viscosity: nu.
         limit: the step that the viscous limit allows an explicit step.
-        turnover: L / U, the time in which the flow passes its length.
+        turnover: the lesser of L / U, in which the flow passes its length, and L^2 / nu, in which it feels its walls.
+            A slow flow is steady beside longer steps, and by Crank and Nicolson would ring at each.
         relief: alpha / dt, the rate at which crowding decays.
         kind: of the viscous step, "crank_nicolson" or "backward_euler".
     """
@@ -98,5 +101,6 @@ def coupled(
     if settings.viscous_step == "explicit" or problem.free_surface:
         return None
     limit = problem.time_step_limits(h, 0.0, radial)["viscous"]
-    turnover, relief = problem.length / problem.speed, pressures.alpha / time_step
-    return Coupled(pressures, problem.kinematic_viscosity, limit, turnover, relief, settings.viscous_step)
+    nu, relief = problem.kinematic_viscosity, pressures.alpha / time_step
+    turnover = min(problem.length / problem.speed, problem.length**2 / nu if nu > 0 else math.inf)
+    return Coupled(pressures, nu, limit, turnover, relief, settings.viscous_step)

@@ -32,6 +32,7 @@ from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
 
+FREE_SURFACE_STEPS = 100.0  # viscous limits of an explicit step, that an implicit one is at most
 PRESSURE_AT = {"midpoint": 0.5, "start": 0.0, "intermediate": 1.0}  # share of the step
 COURANT = 0.4  # of smoothing lengths
 USUAL_ALPHA = 10.0  # alpha over the time step in L / U: 0.01 at the step of 0.001 of Zheng, Ma & Shao (2018)
@@ -133,7 +134,8 @@ class IncompressibleFlow:
         if (stable := settings.shifting_method.stable_step(h, problem.speed)) < math.inf:
             limits["shifting"] = stable
         if IMPLICIT_SHARE[settings.viscous_step]:
-            limits["viscous"] = math.inf
+            # beside a free surface velocity and pressure are found one after the other, which long steps do not bear
+            limits["viscous"] *= FREE_SURFACE_STEPS if problem.free_surface else math.inf
         return limits
 
     def advance(self, steps: int) -> None:
