@@ -13,7 +13,8 @@ LEAST_ENERGY = 0.05  # of the energy of the whole fluid at its expected speed: a
 
 def kinetic_energy(mass: float, velocities: Array) -> float:
     """(m / 2) sum_i u_i^2 of particles of one mass and velocities (N, d)."""
-    return 0.5 * mass * float(np.vdot(velocities, velocities))
+    # not by BLAS, whose threads wait for each other: see `sphear.pressure.vectors`
+    return 0.5 * mass * float(np.einsum("nd,nd->", velocities, velocities))
 
 
 class EnergyBudget:

@@ -141,7 +141,7 @@ class WallModel:
             density: of the fluid.
             way: (W, d), w.
         """
-        result: Array = -density * (accelerations * way).sum(axis=1)
+        result: Array = -density * np.einsum("wd,wd->w", accelerations, way)
         return result
 
     def pressure_weights(

@@ -109,7 +109,7 @@ class IncompressibleFlow:
         """(N,), at the positions, along its gradient from where it was found; of the `pressure_time`."""
         moved, domain = self.x - self.pressure_positions, self.discretisation.domain
         moved = moved if domain is None else domain.shortest(moved)
-        result: Array = self.pressures.fluid + (self.pressure_slopes * moved).sum(axis=1)
+        result: Array = self.pressures.fluid + np.einsum("nd,nd->n", self.pressure_slopes, moved)
         return result
 
     @property

@@ -157,7 +157,7 @@ class Pressures:
         on, walls = self.assembly.on_wall, self.walls
         if not on or walls is None:
             return np.zeros(0)
-        slope = (accelerations[:on] * walls.normals[:on]).sum(axis=1)
+        slope = np.einsum("wd,wd->w", accelerations[:on], walls.normals[:on])
         result: Array = self.density * slope / self.spacing
         return result
 

@@ -136,7 +136,7 @@ class Walls:
         fluid turns with it.
         """
         behind = self.slipping(interpolation, velocities)[len(velocities) :]
-        across = (behind * self.normals).sum(axis=1, keepdims=True) * self.normals
+        across = np.einsum("wd,wd->w", behind, self.normals)[:, None] * self.normals
         bent = (self.curvatures * self.depths)[:, None]
         result: Array = across + (behind - across) * (1.0 + bent) / (1.0 - bent)
         return result
@@ -151,7 +151,7 @@ class Walls:
         """
         behind = interpolation.mirrored @ velocities
         wall = self.velocities + since * self.accelerations
-        across = ((behind - wall) * self.normals).sum(axis=1, keepdims=True)
+        across = np.einsum("wd,wd->w", behind - wall, self.normals)[:, None]
         strength = np.where(self.depths > 0, 2.0, 1.0)[:, None]
         return np.concatenate((velocities, behind - strength * across * self.normals))
 
