@@ -112,9 +112,12 @@ def test_a_damaged_file_is_refused_in_one_sentence(damage: str, tmp_path: Path) 
 
 
 SPOILS: dict[str, Callable[[dict[str, Any]], dict[str, Any]]] = {
-    "a place is not a number": lambda state: {**state, "x": np.where(state["x"] > 0.5, np.nan, state["x"])},
-    "places are text": lambda state: {**state, "x": state["x"].astype(str)},
-    "places are complex": lambda state: {**state, "x": state["x"].astype(complex)},
+    "a place is not a number": lambda state: {
+        **state,
+        "position": np.where(state["position"] > 0.5, np.nan, state["position"]),
+    },
+    "places are text": lambda state: {**state, "position": state["position"].astype(str)},
+    "places are complex": lambda state: {**state, "position": state["position"].astype(complex)},
     "the clock is not a number": lambda state: {**state, "clock": np.full(2, np.nan)},
     "no text": lambda state: {key: values for key, values in state.items() if key != "about"},
     "nothing said": lambda state: {**state, "about": np.array("[]")},
@@ -174,7 +177,7 @@ def test_the_state_of_a_flow_of_another_size_is_refused(tmp_path: Path) -> None:
     state = start().flow.state()
     run = start()
     with pytest.raises(SphearError, match=r"the saved state has no x of the shape \(100, 2\)"):
-        run.flow.restore({**state, "x": state["x"][1:]})
+        run.flow.restore({**state, "position": state["position"][1:]})
     del state["v"]
     with pytest.raises(SphearError, match="the saved state has no v"):
         run.flow.restore(state)

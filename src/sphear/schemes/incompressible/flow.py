@@ -197,12 +197,12 @@ class IncompressibleFlow:
     def _arrays(self) -> dict[str, Array]:
         return {
             "clock": np.array([self.time, self.steps]),
-            "x": self.x,
-            "v": self.u,
+            "position": self.x,
+            "velocity": self.u,
             "pressure": self.pressures.fluid,
             "wall_pressure": self.pressures.on_walls,
-            "pressure_x": self.pressure_positions,
-            "energy": self.energy_budget.state(),
+            "pressure_position": self.pressure_positions,
+            "energy_budget": self.energy_budget.state(),
             "pressure_slopes": self.pressure_slopes,
         }
 
@@ -213,11 +213,11 @@ class IncompressibleFlow:
             SphearError: it is that of another flow.
         """
         check_state(state, self._arrays())
-        self.x, self.u = np.array(state["x"]), np.array(state["v"])
+        self.x, self.u = np.array(state["position"]), np.array(state["velocity"])
         self.pressure_positions, self.pressure_slopes = (
-            np.array(state["pressure_x"]),
+            np.array(state["pressure_position"]),
             np.array(state["pressure_slopes"]),
         )
         self.pressures.fluid, self.pressures.on_walls = np.array(state["pressure"]), np.array(state["wall_pressure"])
-        self.energy_budget.restore(state["energy"])
+        self.energy_budget.restore(state["energy_budget"])
         self.time, self.steps, self.distance = float(state["clock"][0]), int(state["clock"][1]), None
