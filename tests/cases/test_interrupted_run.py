@@ -29,13 +29,13 @@ def start(scheme: str = "midpoint") -> FlowRun:
 
 
 class Interrupted:
-    """A compiled loop that Ctrl-C meets in one of its calls: Python raises it as the call returns."""
+    """A compiled program that Ctrl-C meets in one of its runs: Python raises it as the run returns."""
 
-    def __init__(self, loop: Any, call: int) -> None:
-        self.loop, self.left = loop, call
+    def __init__(self, program: Any, call: int) -> None:
+        self.program, self.left = program, call
 
-    def advance(self, *arguments: Any) -> Any:
-        made = self.loop.advance(*arguments)
+    def run(self, *arguments: Any) -> Any:
+        made = self.program.run(*arguments)
         self.left -= 1
         if self.left == 0:
             raise KeyboardInterrupt
@@ -43,7 +43,7 @@ class Interrupted:
 
 
 def interrupted(run: FlowRun, call: int, path: Path) -> FlowRun:
-    run.flow.__dict__["_loop"] = Interrupted(run.flow.__dict__["_loop"], call)
+    run.flow.__dict__["_program"] = Interrupted(run.flow.__dict__["_program"], call)
     with pytest.raises(KeyboardInterrupt):
         run.run(keep=path)
     return run
@@ -176,7 +176,7 @@ def test_no_changed_byte_is_a_traceback(place: int, tmp_path: Path) -> None:
 def test_the_state_of_a_flow_of_another_size_is_refused(tmp_path: Path) -> None:
     state = start().flow.state()
     run = start()
-    with pytest.raises(SphearError, match=r"the saved state has no x of the shape \(100, 2\)"):
+    with pytest.raises(SphearError, match=r"the saved state has no position of the shape \(100, 2\)"):
         run.flow.restore({**state, "position": state["position"][1:]})
     del state["v"]
     with pytest.raises(SphearError, match="the saved state has no v"):
@@ -210,7 +210,7 @@ def test_an_array_that_is_not_the_one_that_was_saved_is_refused(tmp_path: Path) 
     start().save(path)
     with np.load(path, allow_pickle=False) as file:
         members = dict(file)
-    np.savez(path, allow_pickle=False, **{**members, "x": np.nextafter(members["x"], np.inf)})
+    np.savez(path, allow_pickle=False, **{**members, "position": np.nextafter(members["position"], np.inf)})
     with pytest.raises(SphearError, match="there is no saved run in"):
         read(path)
 
