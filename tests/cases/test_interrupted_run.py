@@ -178,7 +178,7 @@ def test_the_state_of_a_flow_of_another_size_is_refused(tmp_path: Path) -> None:
     run = start()
     with pytest.raises(SphearError, match=r"the saved state has no position of the shape \(100, 2\)"):
         run.flow.restore({**state, "position": state["position"][1:]})
-    del state["v"]
+    del state["velocity"]
     with pytest.raises(SphearError, match="the saved state has no v"):
         run.flow.restore(state)
 
