@@ -58,7 +58,7 @@ def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) ->
 
 
 class PairWeights(Sweep):
-    """What an interaction's `pair` gives for each listed pair: weights, one row of numbers a component.
+    """The weights that an interaction's `pair` gives for each listed pair, one row of numbers a component.
 
     Used as a `Sweep`; the interaction is a `Weights`.
     """

@@ -1,4 +1,4 @@
-"""Which particles are near which: what every sweep walks over, and the only thing it knows about space."""
+"""The neighbours of particles: all that a sweep walks over, and the only thing it knows about space."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ class Neighbours:
 
     @cached_property
     def alternating(self) -> bool:
-        """Whether every second chunk of `chunks_once` may be summed at the same time.
+        """True if every second chunk of `chunks_once` may be summed at the same time.
 
         A chunk adds to the sums of its own rows and of entries after them; these must not go beyond the next chunk.
         """
