@@ -28,9 +28,9 @@ from sphear.schemes.base import (
 )
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import INTEGRATORS
-from sphear.schemes.named import named
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
+from sphear.schemes.registered_names import named
 from sphear.schemes.settings import WeaklyCompressible
 from sphear.schemes.sound_speed import energy_at_rest, sound_speed
 from sphear.schemes.step import step_of

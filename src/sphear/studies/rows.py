@@ -27,6 +27,6 @@ def failed(row: Row) -> bool:
     return str(row["end"]).startswith("failed")
 
 
-def how(row: Row) -> str:
+def outcome(row: Row) -> str:
     """Say in a few words where the run of a row ended."""
     return f"failed at t = {row['time']:.3g}" if failed(row) else f"t = {row['time']:.3g}"

@@ -13,9 +13,9 @@ from sphear.engine.cache import compiled
 from sphear.errors import SphearError, quoted
 from sphear.positive import is_positive
 from sphear.pressure.preconditioners.base import Preconditioner, Vector
-from sphear.pressure.preconditioners.multigrid import PartlyFilled
+from sphear.pressure.preconditioners.multigrid import MultigridPoisson
 from sphear.pressure.preconditioners.poisson import BoxPoisson
-from sphear.pressure.preconditioners.transfer import corners, deposit, interpolate_and_add
+from sphear.pressure.preconditioners.transfer import deposit, interpolate_and_add, surrounding_nodes
 from sphear.pressure.system import PressureSystem
 
 FULL = 0.25  # of a node, from which on it is not a hole; disordered particles leave more than half
@@ -97,7 +97,7 @@ class Grid(Preconditioner):
         periods = np.array([x if flag else 0.0 for x, flag in zip(extent, system.periodic, strict=True)])
         step = -(-system.unknowns // SAMPLE)
         c = laplacian_coefficient(matrix.indptr, matrix.indices, matrix.data, positions, periods, step)
-        nodes, weights = corners(
+        nodes, weights = surrounding_nodes(
             positions, np.array(system.lower), np.array(size), np.array(counts), np.array(system.periodic)
         )
         particles = prod(size) / system.spacing**system.dimension  # that a node stands for
@@ -111,7 +111,7 @@ class Grid(Preconditioner):
         else:
             if not system.singular:
                 deposit(nodes, weights, np.maximum(-(matrix @ ones), 0.0), penalty)
-            poisson = PartlyFilled(counts, size, system.periodic, c * particles, share, penalty)
+            poisson = MultigridPoisson(counts, size, system.periodic, c * particles, share, penalty)
 
         def apply(vector: Vector) -> Vector:
             deposit(nodes, weights, vector, room)

@@ -25,9 +25,9 @@ from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.shifting import Displacement
 from sphear.schemes.incompressible.step import step
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
-from sphear.schemes.named import named
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
+from sphear.schemes.registered_names import named
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
