@@ -163,4 +163,8 @@ class Sum:
         return total
 
 
-__all__ = ["Interaction", "Shape", "Sum", "TracedFormula", "traced"]
+class Weights(Sum):
+    """Mix-in for interactions whose `pair` gives weights that are kept and not summed."""
+
+
+__all__ = ["Interaction", "Shape", "Sum", "TracedFormula", "Weights", "traced"]

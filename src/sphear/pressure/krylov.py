@@ -41,7 +41,7 @@ class KrylovResult:
 
 
 def product(system: PressureSystem) -> Operator:
-    """A, or P A where the matrix is singular and not symmetric: see `sphear.pressure.solve`."""
+    """A, or P A where the matrix is singular and not symmetric: see `sphear.pressure.solver`."""
     matrix = system.matrix
 
     def times(vector: Vector) -> Vector:
