@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 
 
 def versions() -> dict[str, str]:
@@ -16,6 +15,8 @@ def versions() -> dict[str, str]:
 
 @cache
 def _of(package: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version  # takes long: commands come here at their end
+
     try:
         return version(package)
     except PackageNotFoundError:

@@ -65,13 +65,17 @@ def test_a_computation_prints_one_json_document_only(tmp_path: Path) -> None:
     assert json.loads(out)["case"] == "patch-test"
 
 
-@pytest.mark.parametrize("arguments", ["list", "list --json", "show case patch-test --help", "--version"])
-def test_what_does_not_compute_imports_nothing_heavy(arguments: str) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "also"),
+    [("list", ""), ("list --json", "rich"), ("show case patch-test --help", "numpy rich"), ("--version", "numpy rich")],
+)
+def test_what_does_not_compute_imports_nothing_heavy(arguments: str, also: str) -> None:
+    heavy = {"llvmlite", "matplotlib", "numba", "scipy", "yaml", *also.split()}
     code = (
         "import sys; from sphear.cli import main\n"
         "try: main()\n"
         "except SystemExit: pass\n"
-        "print({name.partition('.')[0] for name in sys.modules} & {'numba', 'scipy', 'matplotlib'}, file=sys.stderr)"
+        f"print({{name.partition('.')[0] for name in sys.modules}} & {heavy}, file=sys.stderr)"
     )
     assert finished(*arguments.split(), module=("-c", code))[2] == "set()\n"
 

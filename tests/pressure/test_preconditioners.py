@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_matrix
 
 from sphear.pressure import PRECONDITIONERS, Grid
-from sphear.pressure.preconditioners.multigrid import PartlyFilled
+from sphear.pressure.preconditioners.multigrid import MultigridPoisson
 from sphear.pressure.preconditioners.poisson import BoxPoisson
-from sphear.pressure.preconditioners.transfer import corners, deposit, interpolate_and_add
+from sphear.pressure.preconditioners.transfer import deposit, interpolate_and_add, surrounding_nodes
 from tests.pressure.problems import box, fixed, random_right
 
 
@@ -63,7 +63,7 @@ def test_transfer(periodic: bool) -> None:
     rng = np.random.default_rng(0)
     positions, lower, size = 1.4 * rng.random((50, 2)) - 0.2, np.zeros(2), np.array([0.25, 0.2])
     counts, flags = np.array([4, 5]), np.array([periodic, periodic])
-    nodes, weights = corners(positions, lower, size, counts, flags)
+    nodes, weights = surrounding_nodes(positions, lower, size, counts, flags)
     zero, vector, grid, room = np.zeros(50), rng.random(50), rng.random(20), np.empty(20)
     assert np.allclose(interpolate_and_add(nodes, weights, np.ones(20), zero, zero), 1.0)
     deposit(nodes, weights, vector, room)
@@ -86,7 +86,7 @@ def test_a_v_cycle_is_nearly_the_transform_where_both_apply() -> None:
     source = np.random.default_rng(0).standard_normal(480)
     source -= source.mean()
     exact = BoxPoisson(counts, size, flags, 1 / 3.0)(source.copy())
-    cycle = PartlyFilled(counts, size, flags, 3.0, np.ones(480), np.zeros(480))
+    cycle = MultigridPoisson(counts, size, flags, 3.0, np.ones(480), np.zeros(480))
     found = cycle(source)
     found -= found.mean()
     assert np.linalg.norm(found - exact) < 0.2 * np.linalg.norm(exact)
@@ -96,7 +96,7 @@ def test_nodes_without_fluid_take_no_part() -> None:
     share = np.ones((16, 16))
     share[4:12, 4:12] = 0.0
     source = np.where(share.ravel() > 0, 1.0, 0.0)
-    found = PartlyFilled((16, 16), (1.0, 1.0), (False, False), 1.0, share.ravel(), 0.1 * source)(source)
+    found = MultigridPoisson((16, 16), (1.0, 1.0), (False, False), 1.0, share.ravel(), 0.1 * source)(source)
     assert np.isfinite(found).all()
     assert (found[source > 0] > 0).all()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from sphear.studies.rows import failed, how, select, significant
+from sphear.studies.rows import failed, outcome, select, significant
 
 ROWS = [
     {"term": "a", "size": 1, "end": "time", "time": 40.0},
@@ -28,4 +28,4 @@ def test_rows_are_chosen_by_all_values() -> None:
 
 def test_how_a_run_ended_is_told_with_its_time() -> None:
     assert [failed(row) for row in ROWS] == [False, True]
-    assert [how(row) for row in ROWS] == ["t = 40", "failed at t = 3.14"]
+    assert [outcome(row) for row in ROWS] == ["t = 40", "failed at t = 3.14"]

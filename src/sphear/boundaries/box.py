@@ -105,7 +105,7 @@ class Box:
 
     @property
     def periodic(self) -> tuple[bool, ...]:
-        """Whether the box repeats, along each axis."""
+        """True for each axis along which the box repeats, (d,)."""
         return tuple(side == "periodic" for side in self.sides)
 
     @property

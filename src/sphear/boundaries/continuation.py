@@ -1,4 +1,4 @@
-"""How the velocity along a wall is continued to the mirror particles behind it.
+"""Continuation of the velocity along a wall to the mirror particles behind it.
 
 u(y) is the velocity along the wall at the distance y from it. Each rule finds a and b of u(y) = u_wall + a y + b y^2
 for each wall, and a mirror particle at the depth y has u_wall - a y + b y^2; but `mirror` reflects each particle.

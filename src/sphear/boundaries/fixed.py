@@ -118,7 +118,7 @@ def particles_behind(shape: Shape, spacing: float, depth: float, window: Domain)
 
 
 def _in_corners(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:
-    """Which particles have their foot in a corner, where the wall goes on in no straight line: (M,)."""
+    """True for particles with their foot in a corner, where the wall goes on in no straight line, (M,)."""
     whole, step = repeated(shape, window), NEARBY * spacing
     along = step * np.column_stack((-behind.normals[:, 1], behind.normals[:, 0]))
     off = [np.abs(whole.distance(window.wrapped(behind.feet + sign * along))) for sign in (1.0, -1.0)]

@@ -22,10 +22,10 @@ class Exact(Protocol):
     """An exact flow of density 1."""
 
     def velocity(self, positions: Array, time: float) -> Array:
-        """(N, d), at positions (N, d)."""
+        """The exact velocity (N, d) at positions (N, d)."""
 
     def pressure(self, positions: Array, time: float) -> Array:
-        """(N,), at positions (N, d)."""
+        """The exact pressure (N,) at positions (N, d)."""
 
 
 def manufactured(exact: ClosedVortex, count: int) -> Problem:
@@ -48,7 +48,7 @@ def manufactured(exact: ClosedVortex, count: int) -> Problem:
 
 
 def relative_errors(flow: IncompressibleFlow, exact: Exact) -> tuple[float, float]:
-    """Of velocity and of pressure: the norm of the difference over that of the exact one, pressures without means.
+    """Errors of velocity and pressure: the norm of the difference over that of the exact one, pressures without means.
 
     Each of the time that it belongs to.
     """

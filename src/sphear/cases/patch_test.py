@@ -19,7 +19,7 @@ from sphear.engine.threads import thread_count
 from sphear.errors import SphearError, quoted
 from sphear.names import unknown
 from sphear.operators import Particles, arguments
-from sphear.operators.doubts import NoNeighboursError, tell_of_loneliness
+from sphear.operators.input_checks import NoNeighboursError, check_isolated
 from sphear.operators.particles import needing_neighbours, too_few_neighbours
 from sphear.operators.scaling import TooLargeError
 from sphear.progress import no_progress
@@ -169,7 +169,7 @@ class PatchTest(BaseModel):
         def tell() -> None:
             neighbours, positions = particles.neighbours, grid.positions[sample]
             alone = np.flatnonzero(np.isin(sample, neighbours.alone))
-            tell_of_loneliness(positions, alone, neighbours.support, "h_over_dx", warn=self.fallback is None)
+            check_isolated(positions, alone, neighbours.support, "h_over_dx", warn=self.fallback is None)
 
         too_large = f"the sums over field {quoted(self.field)} are too large for {self.precision} numbers"
         # particles beyond the sample may lack neighbours; those of the sample may not, unless the user says so

@@ -15,7 +15,7 @@ WIDTH = 79
 
 def of_settings(kind: type[BaseModel]) -> dict[str, dict[str, str]]:
     """Meaning and values of each setting of a class, by name."""
-    from sphear.schemes.named import registries
+    from sphear.schemes.registered_names import registries
 
     listed = {
         key: "any of `sphear list viscosity`" if registry.kind == "viscosity" else ", ".join(registry)

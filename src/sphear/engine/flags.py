@@ -1,4 +1,4 @@
-"""What every compiled function of the engine is compiled with, and how wide a vector register is, in one place."""
+"""The flags of every compiled function of the engine, and the width of a vector register, in one place."""
 
 from __future__ import annotations
 
@@ -30,5 +30,5 @@ def register_bytes() -> int:
 
 
 def lane_count(dtype: str) -> int:
-    """How many numbers of the type "float64" or "float32" are computed on at once."""
+    """The number of lanes: numbers of the type "float64" or "float32" that are computed on at once."""
     return register_bytes() // (8 if dtype == "float64" else 4)

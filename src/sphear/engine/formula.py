@@ -16,14 +16,14 @@ from sphear.engine.trace import Symbol, Trace
 
 @runtime_checkable
 class Interaction(Protocol):
-    """What is summed over the neighbours of each particle.
+    """A sum over the neighbours of each particle.
 
     `own` and `other` have the fields of the sweep as attributes: a number, or a tuple of them. `d` is the vector from
     other to own, `r2` its square. Both methods return a nested tuple of numbers.
     """
 
     def pair(self, own: Any, other: Any, d: tuple[Any, ...], r2: Any) -> tuple[Any, ...]:
-        """What the pair contributes to the sum of `own`; it must be zero from the support on, as kernels are."""
+        """The contribution of the pair to the sum of `own`; it must be zero from the support on, as kernels are."""
 
     def finish(self, own: Any, total: Any) -> tuple[Any, ...]:
         """The result for `own`, from the sum over its neighbours."""
@@ -163,4 +163,8 @@ class Sum:
         return total
 
 
-__all__ = ["Interaction", "Shape", "Sum", "TracedFormula", "traced"]
+class Weights(Sum):
+    """Mix-in for interactions whose `pair` gives weights that are kept and not summed."""
+
+
+__all__ = ["Interaction", "Shape", "Sum", "TracedFormula", "Weights", "traced"]

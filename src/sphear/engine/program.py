@@ -106,7 +106,7 @@ def weights_text(formula: TracedFormula, title: str, dimension: int, dtype: str)
 
 
 def _parts(formula: TracedFormula, title: str, dimension: int, dtype: str) -> dict[str, object]:
-    """What the templates are filled with."""
+    """The pieces of text that the templates are filled with."""
     axes = range(dimension)
     width = lane_count(dtype)
     others = [f"x{axis}" for axis in axes] + [f"other_{f}_{k}" for f, k in formula.columns]

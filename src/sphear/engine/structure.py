@@ -19,7 +19,7 @@ def _attributes(formula: Any) -> list[tuple[str, bool, Any]]:
 
 
 def kind(value: Any) -> Any:
-    """What decides the code: class and attributes, but not the values of floats. Hashable."""
+    """The kind of a formula, which decides its code: class and attributes, but not the values of floats. Hashable."""
     if dataclasses.is_dataclass(value):
         return type(value), tuple("float" if is_float else kind(x) for _, is_float, x in _attributes(value))
     return tuple(kind(x) for x in value) if isinstance(value, tuple) else value

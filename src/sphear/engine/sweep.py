@@ -109,7 +109,7 @@ class Sweep:
 
     @property
     def outputs(self) -> int:
-        """How many numbers the result of a particle has."""
+        """The number of numbers in the result of a particle."""
         return len(self.formula.finish_outputs)
 
     def over(self, chunk: Chunk, out: Array, target: Array, own: Array | None = None) -> None:

@@ -13,7 +13,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from sphear.engine.cache import generated_module
-from sphear.engine.formula import Shape, Sum, TracedFormula
+from sphear.engine.formula import Shape, TracedFormula
 from sphear.engine.lanes import INT64, Lanes, as_lanes
 from sphear.engine.program import weights_text
 from sphear.engine.sweep import FAR, Sweep
@@ -58,7 +58,7 @@ def _compiled(formula: TracedFormula, title: str, dimension: int, dtype: str) ->
 
 
 class PairWeights(Sweep):
-    """What an interaction's `pair` gives for each listed pair: weights, one row of numbers a component.
+    """The weights that an interaction's `pair` gives for each listed pair, one row of numbers a component.
 
     Used as a `Sweep`; the interaction is a `Weights`.
     """
@@ -81,10 +81,6 @@ class PairWeights(Sweep):
             self.neighbours.entry, chunk.first, chunk.neighbour, chunk.begin, chunk.end, chunk.begin,
         )  # fmt: skip
         return values[:, : chunk.pairs]
-
-
-class Weights(Sum):
-    """Mix-in for interactions whose `pair` gives weights that are kept and not summed."""
 
 
 def pair_weights(

@@ -26,7 +26,7 @@ class Interpolation(Sum):
 
 
 @dataclass(frozen=True)
-class PlaneSums(Sum):
+class LinearFitSums(Sum):
     """The sums of the plane that fits a field around a point best: V_j W_ij times 1, y, f, y (x) y and y (x) f.
 
     y = (r_j - r_i) / h. At a point of evaluation, as `Interpolation`.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from sphear.algebra import Scalar, Vector
 from sphear.corrections import Correction
-from sphear.engine.weights import Weights
+from sphear.engine.formula import Weights
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from sphear.algebra import Scalar, Vector, apply, dot, scale, transpose
 from sphear.corrections.renormalised import safe_inverse
-from sphear.engine.weights import Weights
+from sphear.engine.formula import Weights
 from sphear.kernels import Kernel
 
 

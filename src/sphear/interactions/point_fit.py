@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from sphear.algebra import Scalar, Vector, dot, scale, solve, where_less
-from sphear.engine.weights import Weights
+from sphear.engine.formula import Weights
 from sphear.kernels import Kernel
 
 LEAST_PIVOT = 1e-4  # of a fit, over what it is made of: below, particles lie too unevenly for a slope

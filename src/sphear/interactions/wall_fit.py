@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from sphear.algebra import Scalar, Vector, dot, solve, where_less
-from sphear.engine.weights import Weights
+from sphear.engine.formula import Weights
 from sphear.interactions.point_fit import LEAST_SUM, symmetric
 from sphear.kernels import Kernel
 

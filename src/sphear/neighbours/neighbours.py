@@ -1,4 +1,4 @@
-"""Which particles are near which: what every sweep walks over, and the only thing it knows about space."""
+"""The neighbours of particles: all that a sweep walks over, and the only thing it knows about space."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from sphear.errors import SphearError
 from sphear.neighbours.cells import PADDING, REACH, cell_sort, point_cells
 from sphear.neighbours.domain import Domain
 from sphear.neighbours.limits import refuse_pairs
-from sphear.neighbours.pair_list import Chunk, build_chunk, room
+from sphear.neighbours.pair_list import Chunk, build_chunk, list_capacity
 from sphear.reading import real_numbers
 
 Array = np.ndarray[Any, Any]
@@ -136,7 +136,7 @@ class Neighbours:
 
     @cached_property
     def alternating(self) -> bool:
-        """Whether every second chunk of `chunks_once` may be summed at the same time.
+        """True if every second chunk of `chunks_once` may be summed at the same time.
 
         A chunk adds to the sums of its own rows and of entries after them; these must not go beyond the next chunk.
         """
@@ -163,7 +163,7 @@ class Neighbours:
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
 
         # one piece of memory for the lists of all chunks: the system maps and clears smaller ones anew each time
-        size, most = room(self._cells, -(-self.count // parts), once)
+        size, most = list_capacity(self._cells, -(-self.count // parts), once)
         memory = np.empty((len(ranges), size), np.int32)
 
         def build(number: int) -> tuple[Chunk, int]:

@@ -85,8 +85,8 @@ class Chunk:
         return int(self.first[-1])
 
 
-def room(cells: CellSort, rows: int, once: bool) -> tuple[int, int]:
-    """How many entries the list of so many rows will hold, roughly, and how many candidates a row has at most.
+def list_capacity(cells: CellSort, rows: int, once: bool) -> tuple[int, int]:
+    """Estimate the number of entries in a list of so many rows, and the largest number of candidates in a row.
 
     The first is a guess from the mean density of the cells in use: a list grows where it does not suffice.
     """

@@ -10,10 +10,10 @@ from sphear.corrections import Correction, MovingLeastSquares
 from sphear.engine.sweep import sweep
 from sphear.errors import SphearError
 from sphear.interactions import Interpolation
-from sphear.interactions.interpolation import PlaneSums
+from sphear.interactions.interpolation import LinearFitSums
 from sphear.neighbours import Neighbours
 from sphear.operators.particles import Fallback, Particles, too_few_neighbours
-from sphear.operators.scaling import InUnits, Reduced, restored
+from sphear.operators.scaling import ScaledField, ScaledParticles, unscaled
 
 Array = np.ndarray[Any, Any]
 
@@ -40,20 +40,20 @@ def interpolated(
     """
     if fallback not in (None, "uncorrected", "nan"):
         raise SphearError(f"fallback must be 'uncorrected' or 'nan', not {fallback!r}")
-    units = InUnits.of(particles.kernel, neighbours, particles.volumes, particles.precision)
-    field = Reduced.of(values, particles.precision)
+    units = ScaledParticles.of(particles.kernel, neighbours, particles.volumes, particles.precision)
+    field = ScaledField.of(values, particles.precision)
     if isinstance(correction, MovingLeastSquares):
         reduced, lacking = _planes(units, field.values, particles.precision)
         if len(lacking) and fallback is None:
             what = f"correction {correction.name!r}"
             raise too_few_neighbours(lacking, points, what, f"is point {lacking[0]} at", "h", of="points")
-        particles.tell_of_loneliness(fallback)
+        particles.check_isolated(fallback)
     else:
-        particles.tell_of_loneliness(fallback)
+        particles.check_isolated(fallback)
         sums = _sums(Interpolation(units.kernel), units, field.values, particles.precision)
         one = sums[:, -1:]
         if not correction.zeroth_order:
-            return restored(sums[:, :-1] * field.size + one * field.reference, 1.0).astype(particles.precision)
+            return unscaled(sums[:, :-1] * field.size + one * field.reference, 1.0).astype(particles.precision)
         with np.errstate(invalid="ignore", divide="ignore"):
             reduced, lacking = np.where(one > 0, sums[:, :-1] / one, np.nan), np.empty(0, np.int64)
     result = reduced * field.size + field.reference
@@ -62,18 +62,18 @@ def interpolated(
         if fallback == "uncorrected":
             sums = _sums(Interpolation(units.kernel), units, field.values, particles.precision)[lacking]
             result[lacking] = sums[:, :-1] * field.size + sums[:, -1:] * field.reference
-    return restored(result, 1.0).astype(particles.precision, copy=False)
+    return unscaled(result, 1.0).astype(particles.precision, copy=False)
 
 
-def _sums(interaction: Any, units: InUnits, values: Array, precision: str) -> Array:
+def _sums(interaction: Any, units: ScaledParticles, values: Array, precision: str) -> Array:
     found = sweep(interaction, units.neighbours, dtype=precision, values=values, volume=units.volumes)
     return found.astype(np.float64, copy=False)
 
 
-def _planes(units: InUnits, values: Array, precision: str) -> tuple[Array, Array]:
+def _planes(units: ScaledParticles, values: Array, precision: str) -> tuple[Array, Array]:
     """The values of the planes of best fit, and the points that have particles near but too few for a plane."""
     dimension, columns = units.neighbours.dimension, values.shape[1]
-    sums = _sums(PlaneSums(units.kernel), units, values, precision)
+    sums = _sums(LinearFitSums(units.kernel), units, values, precision)
     upper = np.triu_indices(dimension)
     ends = np.cumsum((1, dimension, columns, len(upper[0])))
     one, y, f, squares, mixed = np.split(sums, ends, axis=1)

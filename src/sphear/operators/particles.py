@@ -16,9 +16,9 @@ from sphear.interactions import Gradient
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain, Neighbours
 from sphear.operators import arguments
-from sphear.operators.doubts import tell_of_loneliness, tell_of_volumes
+from sphear.operators.input_checks import check_isolated, check_volumes
 from sphear.operators.pipeline import Operation, run
-from sphear.operators.scaling import InUnits, Reduced, restored
+from sphear.operators.scaling import ScaledField, ScaledParticles, unscaled
 from sphear.viscosity import ViscousTerm, uncorrected, with_varying_viscosity
 from sphear.viscosity.base import LaplacianTerm
 
@@ -127,15 +127,15 @@ class Particles:
             chosen = arguments.read_kernel(kernel, h_over_dx, dx)
         neighbours = Neighbours(places, chosen.radius, domain, threads=threads, each_pair_once=each_pair_once)
         if given is not None:
-            tell_of_volumes(given, chosen, neighbours)
+            check_volumes(given, chosen, neighbours)
         if given is None:
             given = arguments.particle_volumes(chosen, neighbours, each_pair_once)
         return cls(places, chosen, neighbours, given, arguments.read_precision(precision), each_pair_once)
 
     @cached_property
-    def in_units(self) -> InUnits:
+    def in_units(self) -> ScaledParticles:
         """The same with lengths of order one, where the precision of the sums asks for it."""
-        return InUnits.of(self.kernel, self.neighbours, self.volumes, self.precision)
+        return ScaledParticles.of(self.kernel, self.neighbours, self.volumes, self.precision)
 
     def laplacian(
         self, values: Array, term: ViscousTerm, correction: Correction, fallback: Fallback | None = None
@@ -148,9 +148,9 @@ class Particles:
                 f" component"
             )
         shifted = ignores_constants(term, correction, fallback)
-        field = Reduced.of(values, self.precision, shifted=shifted)
+        field = ScaledField.of(values, self.precision, shifted=shifted)
         result = self._apply(term, correction, {"values": field.values}, fallback, "laplacian_stages", self.in_units)
-        return restored(result, field.size / self.in_units.unit**2)
+        return unscaled(result, field.size / self.in_units.unit**2)
 
     def viscous_acceleration(
         self,
@@ -167,15 +167,15 @@ class Particles:
         adapted = with_varying_viscosity if varies else _as_it_is
         stages = "acceleration_stages"
         if not term.homogeneous:  # a term with constants in the user's units
-            units = InUnits(self.kernel, self.neighbours, self.volumes, 1.0)
+            units = ScaledParticles(self.kernel, self.neighbours, self.volumes, 1.0)
             fields = {"velocity": velocities, "dynamic_viscosity": dynamic_viscosity, "density": density}
-            return restored(self._apply(term, correction, fields, fallback, stages, units, adapted), 1.0)
+            return unscaled(self._apply(term, correction, fields, fallback, stages, units, adapted), 1.0)
         shifted = ignores_constants(term, correction, fallback)
-        u = Reduced.of(velocities, self.precision, shifted=shifted, together=True)
-        mu, rho = (Reduced.of(x[:, None], self.precision, shifted=False) for x in (dynamic_viscosity, density))
+        u = ScaledField.of(velocities, self.precision, shifted=shifted, together=True)
+        mu, rho = (ScaledField.of(x[:, None], self.precision, shifted=False) for x in (dynamic_viscosity, density))
         fields = {"velocity": u.values, "dynamic_viscosity": mu.values[:, 0], "density": rho.values[:, 0]}
         result = self._apply(term, correction, fields, fallback, stages, self.in_units, adapted)
-        return restored(result, u.size * (mu.size / rho.size) / self.in_units.unit**2)
+        return unscaled(result, u.size * (mu.size / rho.size) / self.in_units.unit**2)
 
     def gradient(
         self, values: Array, correction: Correction, of_differences: bool = True, fallback: Fallback | None = None
@@ -183,7 +183,7 @@ class Particles:
         """The gradient of each column of values (N, k), (N, k d)."""
         units = self.in_units
         shifted = of_differences or (correction.zeroth_order and fallback != "uncorrected")
-        field = Reduced.of(values, self.precision, shifted=shifted)
+        field = ScaledField.of(values, self.precision, shifted=shifted)
 
         def operation(c: Correction) -> Operation:
             return Operation((Gradient(units.kernel, c, of_differences),), c.preparation(units.kernel))
@@ -191,7 +191,7 @@ class Particles:
         what = f"correction {correction.name!r}"
         fields = {"values": field.values}
         result = self.applied(operation(correction), operation(NoCorrection()), fields, fallback, what, units)
-        return restored(result, np.repeat(field.size / units.unit, self.neighbours.dimension))
+        return unscaled(result, np.repeat(field.size / units.unit, self.neighbours.dimension))
 
     def _apply(
         self,
@@ -200,7 +200,7 @@ class Particles:
         fields: dict[str, Array],
         fallback: Any,
         stages: str,
-        units: InUnits,
+        units: ScaledParticles,
         adapted: Callable[[ViscousTerm], ViscousTerm] = _as_it_is,
     ) -> Array:
         def operation(t: ViscousTerm, c: Correction) -> Operation:
@@ -216,7 +216,7 @@ class Particles:
         fields: dict[str, Array],
         fallback: Fallback | None,
         what: str,
-        units: InUnits,
+        units: ScaledParticles,
     ) -> Array:
         """The result of an operation; where its preparation is deficient `plain` stands in, or it is refused."""
         if fallback not in (None, "uncorrected", "nan"):
@@ -235,11 +235,11 @@ class Particles:
         if fallback == "nan" and len(lacking):
             outcome.values[lacking] = np.nan
         else:
-            self.tell_of_loneliness(fallback)
+            self.check_isolated(fallback)
         return outcome.values
 
-    def tell_of_loneliness(self, fallback: Fallback | None) -> None:
+    def check_isolated(self, fallback: Fallback | None) -> None:
         """Refuse particles none of which has a neighbour; warn of some that have none, unless a fallback is chosen."""
         if len(self.positions) > 1:
             alone = self.neighbours.alone
-            tell_of_loneliness(self.positions, alone, self.neighbours.support, warn=fallback is None)
+            check_isolated(self.positions, alone, self.neighbours.support, warn=fallback is None)

@@ -26,7 +26,7 @@ def power_of_two(size: float) -> float:
 
 
 @dataclass(frozen=True)
-class InUnits:
+class ScaledParticles:
     """Kernel, neighbours and volumes with lengths in a unit.
 
     Attributes:
@@ -39,7 +39,7 @@ class InUnits:
     unit: float
 
     @classmethod
-    def of(cls, kernel: Kernel, neighbours: Neighbours, volumes: Array, precision: str) -> InUnits:
+    def of(cls, kernel: Kernel, neighbours: Neighbours, volumes: Array, precision: str) -> ScaledParticles:
         """In the user's unit where float64 has room for its powers, else in a power of two near h."""
         if precision == "float64" and ORDINARY[0] < kernel.h < ORDINARY[1]:
             return cls(kernel, neighbours, volumes, 1.0)
@@ -49,7 +49,7 @@ class InUnits:
 
 
 @dataclass(frozen=True)
-class Reduced:
+class ScaledField:
     """A field as reference + size x reduced, each column by itself.
 
     Attributes:
@@ -63,7 +63,7 @@ class Reduced:
     size: Array
 
     @classmethod
-    def of(cls, values: Array, precision: str, *, shifted: bool = True, together: bool = False) -> Reduced:
+    def of(cls, values: Array, precision: str, *, shifted: bool = True, together: bool = False) -> ScaledField:
         """Reduce a field for sums in single precision; one for sums in double precision stays as it is.
 
         Args:
@@ -84,7 +84,7 @@ class Reduced:
         return cls((values - reference) / size, reference, size)
 
 
-def restored(result: Array, factor: Array | float) -> Array:
+def unscaled(result: Array, factor: Array | float) -> Array:
     """A result in the user's units, in the precision of the sums.
 
     Raises:

@@ -1,7 +1,13 @@
-"""The pressure Poisson equation: a matrix on particles, preconditioners by name, Krylov methods by symmetry."""
+"""The pressure Poisson equation: a matrix on particles, preconditioners by name, Krylov methods by symmetry.
+
+Preconditioners are listed without what computes: systems and solvers are imported when first used.
+"""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from sphear.lazy import lazy_names
 from sphear.pressure.failure import PressureFailure
 from sphear.pressure.preconditioners import (
     PRECONDITIONERS,
@@ -11,8 +17,15 @@ from sphear.pressure.preconditioners import (
     Preconditioner,
     read_preconditioner,
 )
-from sphear.pressure.solve import Solution, solve
-from sphear.pressure.system import PressureSystem
+
+if TYPE_CHECKING:
+    from sphear.pressure.solver import Solution, solve
+    from sphear.pressure.system import PressureSystem
+else:
+    __getattr__ = lazy_names(
+        __name__,
+        {"sphear.pressure.solver": ("Solution", "solve"), "sphear.pressure.system": ("PressureSystem",)},
+    )
 
 __all__ = [
     "PRECONDITIONERS",

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from sphear.pressure.krylov import Operator, Run, Vector
+from sphear.pressure.krylov import KrylovResult, Operator, Vector
 from sphear.pressure.vectors import norm
 
 RESTART = 60  # iterations after which the basis is dropped
@@ -14,7 +14,7 @@ RESTART = 60  # iterations after which the basis is dropped
 
 def flexible_gmres(
     times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int
-) -> Run:
+) -> KrylovResult:
     """Saad 1993, preconditioned from the right, so that the residual that it measures is that of the equation.
 
     Args:
@@ -30,7 +30,7 @@ def flexible_gmres(
         residual = right - times(values)
         length = norm(residual)
         if not length > tolerance or spent >= most:
-            return Run(values, spent, "fgmres")
+            return KrylovResult(values, spent, "fgmres")
         basis, steps = [residual / length], list[Vector]()
         size = min(RESTART, most - spent)
         hessenberg, rotations = np.zeros((size + 1, size)), np.zeros((size, 2))
@@ -55,7 +55,7 @@ def flexible_gmres(
         for share, step in zip(shares, steps, strict=True):
             values = values + share * step
         if not np.isfinite(values).all():
-            return Run(values, spent, "fgmres")
+            return KrylovResult(values, spent, "fgmres")
 
 
 def _dot(a: Vector, b: Vector) -> float:

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import LinearOperator
 from scipy.sparse.linalg import gmres as scipy_gmres
 
 from sphear.pressure.system import PressureSystem
-from sphear.pressure.vectors import advance, dot, turn
+from sphear.pressure.vectors import advance, dot, update_direction
 
 Vector = np.ndarray[Any, np.dtype[np.float64]]
 Operator = Callable[[Vector], Vector]
@@ -26,7 +26,7 @@ TINY = 1e-14  # of two vectors' lengths, a product of BiCGSTAB that only roundin
 
 
 @dataclass(frozen=True)
-class Run:
+class KrylovResult:
     """The approximation that a method came to, and its cost.
 
     Attributes:
@@ -41,7 +41,7 @@ class Run:
 
 
 def product(system: PressureSystem) -> Operator:
-    """A, or P A where the matrix is singular and not symmetric: see `sphear.pressure.solve`."""
+    """A, or P A where the matrix is singular and not symmetric: see `sphear.pressure.solver`."""
     matrix = system.matrix
 
     def times(vector: Vector) -> Vector:
@@ -58,7 +58,7 @@ def product(system: PressureSystem) -> Operator:
 
 def conjugate_gradients(
     times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int
-) -> Run:
+) -> KrylovResult:
     """Hestenes and Stiefel 1952, preconditioned; A and its approximate inverse may both be negative definite.
 
     It has the signs of neither: alpha = r . M r / p . A p and beta = r' . M r' / r . M r are those of -A and -M.
@@ -76,11 +76,13 @@ def conjugate_gradients(
         if square > tolerance**2:
             towards = inverse(residual)
             before, rho = rho, dot(residual, towards)
-            turn(direction, towards, rho / before)
-    return Run(values, iterations, "cg")
+            update_direction(direction, towards, rho / before)
+    return KrylovResult(values, iterations, "cg")
 
 
-def bicgstab(times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int) -> Run:
+def bicgstab(
+    times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int
+) -> KrylovResult:
     """Van der Vorst 1992, preconditioned from the right; ends early where one of its divisors vanishes."""
     residual = right - times(values)
     shadow, direction = residual.copy(), residual.copy()
@@ -106,11 +108,13 @@ def bicgstab(times: Operator, right: Vector, values: Vector, inverse: Operator, 
         if omega == 0.0 or not math.isfinite(omega):
             break
         direction -= omega * along
-        turn(direction, residual, (rho / before) * (alpha / omega))
-    return Run(values, iterations, "bicgstab")
+        update_direction(direction, residual, (rho / before) * (alpha / omega))
+    return KrylovResult(values, iterations, "bicgstab")
 
 
-def gmres(times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int) -> Run:
+def gmres(
+    times: Operator, right: Vector, values: Vector, inverse: Operator, tolerance: float, most: int
+) -> KrylovResult:
     """Saad and Schultz 1986, restarted; nothing in it can vanish, but each iteration costs more than the last."""
     operator: Any = LinearOperator
     shape, norms = (len(right), len(right)), list[float]()
@@ -125,7 +129,7 @@ def gmres(times: Operator, right: Vector, values: Vector, inverse: Operator, tol
         callback=norms.append,
         callback_type="pr_norm",
     )
-    return Run(values, len(norms), "gmres")
+    return KrylovResult(values, len(norms), "gmres")
 
 
 def iterate(
@@ -137,7 +141,7 @@ def iterate(
     most: int,
     *,
     robust: bool = False,
-) -> Run:
+) -> KrylovResult:
     """Conjugate gradients where the matrix is symmetric, else BiCGSTAB, and GMRES where that breaks down.
 
     Args:
@@ -162,4 +166,4 @@ def iterate(
         # it broke down; its approximation is as good a start as any unless that went wrong too
         spent, start = run.iterations, run.values if np.isfinite(run.values).all() else np.zeros(system.unknowns)
     run = gmres(times, right, start, inverse, tolerance, most)
-    return Run(run.values, spent + run.iterations, run.method)
+    return KrylovResult(run.values, spent + run.iterations, run.method)

@@ -52,7 +52,7 @@ def advance(values, residual, direction, product, step):  # type: ignore[no-unty
 
 
 @compiled
-def turn(direction, towards, share):  # type: ignore[no-untyped-def]
+def update_direction(direction, towards, share):  # type: ignore[no-untyped-def]
     """direction = towards + share direction, in place."""
     for k in range(len(direction)):
         direction[k] = towards[k] + share * direction[k]

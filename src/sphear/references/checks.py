@@ -1,4 +1,4 @@
-"""What the parameters of exact solutions may be."""
+"""Checks of the parameters of exact solutions."""
 
 from __future__ import annotations
 

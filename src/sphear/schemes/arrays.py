@@ -18,7 +18,7 @@ Array = np.ndarray[Any, Any]
 
 
 def integrated(formulas: Formulas) -> Integrated:
-    """What a flow by these formulas integrates in time."""
+    """The variables that a flow by these formulas integrates in time."""
     roles = formulas.rates.roles
     return Integrated(
         scalars=tuple(role for role in ("density", "energy") if role in roles),

@@ -1,4 +1,4 @@
-"""What all schemes share: the settings and the flow in time that a run is made of."""
+"""The base of all schemes: the settings and the flow in time that a run is made of."""
 
 from __future__ import annotations
 
@@ -59,19 +59,19 @@ class FlowInTime(Protocol):
 
     @property
     def positions(self) -> Array:
-        """(N, d)."""
+        """Positions of the particles, (N, d), in the problem's unit of length."""
 
     @property
     def velocities(self) -> Array:
-        """(N, d)."""
+        """Velocities of the particles, (N, d), in the problem's unit of speed."""
 
     @property
     def density(self) -> Array:
-        """(N,)."""
+        """Density at the particles, (N,), a mass by a volume."""
 
     @property
     def pressure(self) -> Array:
-        """(N,)."""
+        """Pressure at the particles, (N,), a density by a squared speed."""
 
     @staticmethod
     def limits_of(problem: Problem, settings: Any, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
@@ -87,13 +87,13 @@ class FlowInTime(Protocol):
         """Go back to a `state`."""
 
     def metrics(self) -> dict[str, float]:
-        """What is reported of the scheme itself at each output."""
+        """Numbers by name that the scheme itself reports at each output."""
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
 
     def introduction(self) -> str:
-        """What is said of the scheme before the first step, in a few words."""
+        """A few words on the scheme, printed before the first step."""
 
 
 def described(flow: FlowInTime, viscosity: str) -> str:

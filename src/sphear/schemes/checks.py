@@ -1,4 +1,4 @@
-"""What every scheme asks of the particles of a problem before the first step."""
+"""Checks of every scheme on the particles of a problem, before the first step."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def _check_volume(problem: Problem) -> None:
 
 
 def _volume(problem: Problem) -> float:
-    """That of the box or of the shape in it."""
+    """The volume of the box or of the shape in it."""
     window, (count, dimension) = problem.window, problem.positions.shape
     whole = float(np.prod(np.subtract(window.upper, window.lower)))
     if problem.shape is None:

@@ -79,7 +79,7 @@ class EnergyBudget:
         return self._share(self._left(self.kinetic(velocities)))
 
     def created(self, velocities: Array) -> float:
-        """How far R has risen from its least, likewise: energy that the discretisation made."""
+        """The rise of R from its least, likewise: energy that the discretisation made."""
         return self._share(self._left(self.kinetic(velocities)) - self.least)
 
     def _share(self, energy: float) -> float:

@@ -20,7 +20,7 @@ from sphear.schemes.point_formulas import ContinuedVelocity, FluidAtWall, Pressu
 
 
 def integrated_walls(formulas: Formulas) -> bool:
-    """Whether wall particles have a density of their own, integrated like the fluid's."""
+    """True if wall particles have a density of their own, integrated like the fluid's."""
     return formulas.density is None and isinstance(formulas.wall, VelocityBeforeWall)
 
 
@@ -65,7 +65,7 @@ def evaluation(formulas: Formulas, columns: Columns, continuation: str | None, w
 
 
 def _walls(formulas: Formulas, columns: Columns) -> list[Stage]:
-    """What wall particles take from the fluid: their velocity, and Adami's their pressure and density."""
+    """The stages that give wall particles their velocity from the fluid, and Adami's their pressure and density."""
     if formulas.wall is None:
         return []
     before = PairSum("before_wall", formulas.wall, Rows.WALLS, columns)

@@ -28,9 +28,9 @@ from sphear.schemes.base import (
 )
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import INTEGRATORS
-from sphear.schemes.named import named
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
+from sphear.schemes.registered_names import named
 from sphear.schemes.settings import WeaklyCompressible
 from sphear.schemes.sound_speed import energy_at_rest, sound_speed
 from sphear.schemes.step import step_of
@@ -103,37 +103,37 @@ class Flow:
 
     @property
     def positions(self) -> Array:
-        """(N, d)."""
+        """Positions of the particles, (N, d), in the problem's unit of length."""
         return self._fields["position"][: self.count]
 
     @property
     def velocities(self) -> Array:
-        """(N, d)."""
+        """Velocities of the particles, (N, d), in the problem's unit of speed."""
         return self._fields["velocity"][: self.count]
 
     @property
     def density(self) -> Array:
-        """(N,)."""
+        """Density at the particles, (N,), a mass by a volume."""
         return self._fields["density"][: self.count]
 
     @property
     def pressure(self) -> Array:
-        """(N,)."""
+        """Pressure at the particles by the equation of state, (N,), a density by a squared speed."""
         return self._fields["pressure"][: self.count]
 
     @property
     def energy(self) -> Array:
-        """(N,) of an ideal gas, else zeros."""
+        """Internal energy of an ideal gas by its mass, (N,), a squared speed; else zeros."""
         return self._fields["energy"][: self.count] if "energy" in self._fields else np.zeros(self.count)
 
     @property
     def drift(self) -> Array:
-        """(N, d), zero where nothing moves particles against the fluid."""
+        """Velocity of the particles against the fluid, (N, d); zero where nothing moves them so."""
         return self._fields["drift"][: self.count] if "drift" in self._fields else np.zeros_like(self.positions)
 
     @property
     def acceleration(self) -> Array:
-        """(N, d), of the last evaluation."""
+        """Acceleration du/dt of the particles by the last evaluation, (N, d), a speed by a time."""
         return self._fields["acceleration"][: self.count]
 
     def _check_room(self, stages: int) -> None:
@@ -191,7 +191,7 @@ class Flow:
             )
 
     def __repr__(self) -> str:
-        """How many particles, by which term, and where they stand."""
+        """The number of particles, the viscous term and the clock."""
         return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:

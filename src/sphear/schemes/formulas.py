@@ -1,4 +1,4 @@
-"""Which formulas make up a step, from the settings."""
+"""The formulas that make up a step, from the settings."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from sphear.schemes.point_formulas import Advanced, Corrected, Drifted, Kept
 
 
 class Integrated(NamedTuple):
-    """What is integrated in time.
+    """The variables that are integrated in time.
 
     scalars: of density and energy, beside place and velocity.
     of_walls: those of them that wall particles have too.

@@ -1,4 +1,4 @@
-"""What a step computes of each particle by itself: its pressure, what walls take from the fluid, rates and moves."""
+"""The formulas of a step for each particle by itself: pressure, fields of walls from the fluid, rates and moves."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ class Problem:
 
     @property
     def periodic(self) -> tuple[bool, ...]:
-        """Whether the flow repeats, along each axis."""
+        """True for each axis along which the flow repeats, (d,)."""
         return self.box.periodic
 
     @property
@@ -112,12 +112,12 @@ class Problem:
 
     @property
     def walled(self) -> bool:
-        """Whether there are walls."""
+        """True if there are walls."""
         return self.shape is not None or not all(self.periodic)
 
     @property
     def straight(self) -> bool:
-        """Whether walls are those of a straight channel, without corners, in which flow can be parallel to them."""
+        """True if walls are those of a straight channel, without corners, in which flow can be parallel to them."""
         return self.shape is None and self.walled and any(self.periodic)
 
     def time_step_limits(self, h: float, sound_speed: float, radial: bool = False) -> dict[str, float]:

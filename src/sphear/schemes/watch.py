@@ -50,7 +50,7 @@ class Watch:
         return None if round_ else float((problem.positions @ self.force).sum())
 
     def found(self, flow: FlowInTime) -> str | None:
-        """What is wrong with a flow, in a sentence without its end; None where nothing is.
+        """Find what is wrong with a flow, in a sentence without its end; None where nothing is.
 
         - Fluid that no force drives is not faster than 1.25 times the fastest wall or particle at the start.
         - Where walls are at rest, kinetic energy and that in a constant force do not grow by more than 1 % of their

@@ -7,7 +7,7 @@ from typing import Any
 from sphear.names import unknown
 from sphear.schemes.common import Scheme
 from sphear.schemes.incompressible.settings import Incompressible
-from sphear.schemes.named import named
+from sphear.schemes.registered_names import named
 from sphear.schemes.settings import WeaklyCompressible
 
 SCHEMES: dict[str, type[Scheme]] = {"incompressible": Incompressible, "weakly_compressible": WeaklyCompressible}

@@ -93,7 +93,7 @@ def study_of(paper: str, item: str) -> LongStudy | ShortStudy:
 
 
 def is_long(study: LongStudy | ShortStudy) -> TypeIs[LongStudy]:
-    """Whether numbers of a study are kept with the package."""
+    """True if numbers of a study are kept with the package."""
     return hasattr(study, "compute")
 
 

@@ -23,10 +23,10 @@ def select(rows: Sequence[Row], **wanted: Any) -> list[Row]:
 
 
 def failed(row: Row) -> bool:
-    """Whether the run of a row broke down."""
+    """True if the run of a row broke down."""
     return str(row["end"]).startswith("failed")
 
 
-def how(row: Row) -> str:
-    """How the run of a row ended, in a few words."""
+def outcome(row: Row) -> str:
+    """Say in a few words where the run of a row ended."""
     return f"failed at t = {row['time']:.3g}" if failed(row) else f"t = {row['time']:.3g}"

@@ -57,7 +57,7 @@ def received(payload: bytes) -> dict[str, Any]:
 def _registries() -> Iterator[tuple[str, Registry[Any]]]:
     """The settings that extensions have names for."""
     from sphear.equations_of_state import EQUATIONS_OF_STATE
-    from sphear.schemes.named import REGISTRIES
+    from sphear.schemes.registered_names import REGISTRIES
 
     yield from ((key, registry) for key, registry in REGISTRIES.items() if registry.published)
     yield "equation_of_state", EQUATIONS_OF_STATE

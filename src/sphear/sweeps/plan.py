@@ -40,7 +40,7 @@ class Run:
 
     def __post_init__(self) -> None:
         from sphear.cases.flow import FLOWS
-        from sphear.schemes.named import named
+        from sphear.schemes.registered_names import named
 
         object.__setattr__(self, "case", FLOWS.name(self.case))
         object.__setattr__(self, "settings", named(self.settings))

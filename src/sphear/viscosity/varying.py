@@ -30,11 +30,11 @@ class MeanViscosity(LaplacianTerm):
     where_it_varies = "div(mu grad u)"
 
     def preparation(self, kernel: Kernel, correction: Correction) -> Any:
-        """That of the term."""
+        """The preparation of the term."""
         return self.term.preparation(kernel, correction)
 
     def weight(self, kernel: Kernel, correction: Correction, own: Any, d: Vector, r2: Scalar) -> Scalar:
-        """That of the term."""
+        """The weight of the term."""
         return self.term.weight(kernel, correction, own, d, r2)
 
     def mean_viscosity(self, own: Any, other: Any) -> Scalar:

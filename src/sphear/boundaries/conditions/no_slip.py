@@ -45,7 +45,7 @@ class NoSlip:
 
     @property
     def moving(self) -> bool:
-        """Whether the wall moves at all."""
+        """True if the wall has a velocity or a spin."""
         return bool(self.spin) or any(self.velocity)
 
     def __repr__(self) -> str:

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, get_args
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
     from sphear.boundaries.shapes import Dummies
     from sphear.neighbours import Domain
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
@@ -157,6 +158,8 @@ class WallModel:
             column: (N + W,), the unknown of each particle.
             unknowns: their number, N + S.
         """
+        from scipy.sparse import csr_array  # takes long: models are listed without it
+
         mirrored = interpolation.mirrored
         return csr_array(
             (mirrored.data, column[mirrored.indices], mirrored.indptr), shape=(mirrored.shape[0], unknowns)

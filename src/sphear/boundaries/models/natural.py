@@ -6,11 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from sphear.boundaries.models.base import Array, WallModel
 
 if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
 

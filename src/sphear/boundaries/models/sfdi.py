@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_array, vstack
-from scipy.spatial import cKDTree
 
 from sphear.boundaries.models.base import Array, WallModel
 
 if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
     from sphear.boundaries.shapes import Dummies
     from sphear.neighbours import Domain
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
@@ -35,6 +35,8 @@ class SFDI(WallModel):
 
     def wall_particles(self, behind: Dummies, spacing: float, window: Domain) -> Dummies:
         """The dummies after particles on the walls, at the feet of the first row, each some way from the others."""
+        from scipy.spatial import cKDTree  # takes long, as what is imported below: models are listed without it
+
         first = behind.depths < FIRST_ROW * spacing
         feet, normals, velocities = behind.feet[first], behind.normals[first], behind.velocities[first]
         feet = window.wrapped(feet)
@@ -68,6 +70,8 @@ class SFDI(WallModel):
         self, walls: Walls, interpolation: WallInterpolation, column: Array, unknowns: int
     ) -> csr_array | None:
         """(W - S, unknowns): the pressure of the nearest particle on the wall."""
+        from scipy.sparse import csr_array
+
         behind = walls.nearest_on_wall[walls.on_wall :]
         nearest = (behind.indices + (column.size - walls.count)).astype(np.int32)
         starts = behind.indptr.astype(np.int32)
@@ -87,6 +91,8 @@ class SFDI(WallModel):
         self, walls: Walls, matrix: csr_array, positions: Array, fluid: Array, column: Array
     ) -> tuple[csr_array, Array]:
         """The rows of the particles on walls below: n . grad p, over the spacing, so that all rows are of one size."""
+        from scipy.sparse import csr_array, vstack
+
         count, on = len(fluid), walls.on_wall
         if not on:
             return matrix, positions

@@ -1,4 +1,4 @@
-"""What every shape answers: how far its wall is, where it faces and how it moves."""
+"""The base of all shapes: signed distance, normal and velocity of the nearest wall."""
 
 from __future__ import annotations
 
@@ -136,11 +136,11 @@ class Primitive(Shape):
         """
 
     def primitives(self, inverted: bool = False) -> tuple[tuple[Primitive, bool], ...]:
-        """Itself."""
+        """The shape itself, with its sign."""
         return ((self, inverted),)
 
     def repeats(self, axis: int, period: float) -> bool:
-        """Whether it goes on unchanged along an axis, or ends within one period."""
+        """True if it goes on unchanged along an axis, or ends within one period."""
         low, high = self.bounds[0][axis], self.bounds[1][axis]
         return (low, high) == (-inf, inf) or high - low < period
 
@@ -200,7 +200,7 @@ def slowest(chosen: Array, velocities: Array) -> Array:
 
 
 def slipping(velocities: Array) -> Array:
-    """Of which walls, of velocities (N, 2), the fluid slips along, (N,)."""
+    """True for walls, of velocities (N, 2), that the fluid slips along, (N,)."""
     found: Array = velocities[:, 0] == SLIPS
     return found
 

@@ -37,7 +37,7 @@ class Compound(Shape):
         return self.shapes
 
     def primitives(self, inverted: bool = False) -> tuple[tuple[Primitive, bool], ...]:
-        """Those of all its parts."""
+        """The primitives of all its parts."""
         return tuple(found for part in self.parts for found in part.primitives(inverted))
 
     def seen_from(self, points: Array) -> Foot:
@@ -61,7 +61,7 @@ class Compound(Shape):
 
 
 def chosen(feet: list[Foot], tiny: float, sign: float) -> Foot:
-    """Of each point the foot with the smallest distance, or the largest if the sign is -1; equal within tiny."""
+    """Choose for each point the foot of the smallest distance, or the largest if the sign is -1; equal within tiny."""
     distances = sign * np.stack([foot.distance for foot in feet], axis=1)
     best = np.argmin(distances, axis=1)
     rows = np.arange(len(best))
@@ -83,7 +83,7 @@ class Union(Compound):
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:
-        """Those of all shapes together."""
+        """The smallest box around all shapes."""
         low, high = self._corners()
         return _pair(low.min(axis=0)), _pair(high.max(axis=0))
 
@@ -107,7 +107,7 @@ class Intersection(Compound):
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:
-        """What the boxes of all shapes have in common."""
+        """The intersection of the boxes of all shapes."""
         low, high = self._corners()
         return _pair(low.max(axis=0)), _pair(high.min(axis=0))
 
@@ -132,11 +132,11 @@ class Difference(Compound):
 
     @property
     def bounds(self) -> tuple[Vector, Vector]:
-        """Those of the first shape."""
+        """The box of the first shape."""
         return self.parts[0].bounds
 
     def primitives(self, inverted: bool = False) -> tuple[tuple[Primitive, bool], ...]:
-        """Those of the first shape, and those of the others with fluid and solid exchanged."""
+        """The primitives of the first shape, and of the others with fluid and solid exchanged."""
         others = (found for part in self.parts[1:] for found in part.primitives(not inverted))
         return (*self.parts[0].primitives(inverted), *others)
 
@@ -167,11 +167,11 @@ class Complement(Compound):
         return (-inf, -inf), (inf, inf)
 
     def primitives(self, inverted: bool = False) -> tuple[tuple[Primitive, bool], ...]:
-        """Those of the shape, with fluid and solid exchanged."""
+        """The primitives of the shape, with fluid and solid exchanged."""
         return self.parts[0].primitives(not inverted)
 
     def distance_from(self, points: Array) -> Array:
-        """That of the shape with the opposite sign."""
+        """The distance from the shape with the opposite sign."""
         return -self.parts[0].distance_from(points)
 
     def _foot(self, points: Array, tiny: float) -> Foot:

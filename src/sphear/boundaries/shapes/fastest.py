@@ -1,4 +1,4 @@
-"""How fast the walls of a shape move."""
+"""The largest speed of the walls of a shape."""
 
 from __future__ import annotations
 

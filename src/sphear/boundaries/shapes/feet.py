@@ -15,7 +15,7 @@ DIRECTIONS = np.array([(np.cos(a), np.sin(a)) for a in 2 * np.pi * np.arange(32)
 
 
 def wetted(whole: Shape, places: Array, spacing: float) -> Array:
-    """Whether places (N, 2) are on walls with fluid at them, not where one solid lies against or in another."""
+    """True for places (N, 2) on walls with fluid at them, not where one solid lies against or in another."""
     foot = whole.foot(places)
     on = np.abs(foot.distance) <= TINY * spacing
     fluid = whole.distance(places + ASIDE * spacing * foot.normal) > TINY * spacing

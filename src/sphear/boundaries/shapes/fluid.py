@@ -43,7 +43,7 @@ def fluid_lattice(shape: Shape, spacing: float, box: Domain) -> Array:
 
 
 def fitted(places: Array, shape: Shape, spacing: float) -> tuple[Array, Array]:
-    """Those of some places (N, 2) that lie in the fluid, moved away from walls nearer than a quarter of the spacing.
+    """Choose the places (N, 2) in the fluid and move them away from walls nearer than a quarter of the spacing.
 
     Returns:
         The places, and which of the N they are.

@@ -75,7 +75,7 @@ class HalfPlane(Primitive):
         return (low[0], low[1]), (high[0], high[1])
 
     def repeats(self, axis: int, period: float) -> bool:
-        """Whether the wall is along the axis."""
+        """True if the wall is along the axis."""
         return self.inward[axis] == 0.0
 
     def seen_from(self, points: Array) -> Foot:

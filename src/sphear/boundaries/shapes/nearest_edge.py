@@ -85,7 +85,7 @@ def _turn(a, b, c):  # type: ignore[no-untyped-def]
 
 @compiled
 def _between(first, last, point):  # type: ignore[no-untyped-def]
-    """Whether a point of the line through two is between them."""
+    """True if a point of the line through two is between them."""
     return min(first[0], last[0]) <= point[0] <= max(first[0], last[0]) and min(first[1], last[1]) <= point[1] <= max(
         first[1], last[1]
     )

@@ -60,7 +60,7 @@ class Repeated(Shape):
         return (-inf if px else x0, -inf if py else y0), (inf if px else x1, inf if py else y1)
 
     def primitives(self, inverted: bool = False) -> tuple[tuple[Primitive, bool], ...]:
-        """Those of one image."""
+        """The primitives of one image."""
         return self.shape.primitives(inverted)
 
     def seen_from(self, points: Array) -> Foot:

@@ -1,4 +1,4 @@
-"""Whether walls leave room for particles: no overlap, some fluid, no gap too narrow."""
+"""Check that walls leave room for particles: no overlap, some fluid, no gap too narrow."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def dummies(shape: Shape, spacing: float, depth: float, box: Domain) -> Dummies:
 
 
 def spread(positions: Array, part: Array, depths: Array, apart: float, box: Domain) -> Array:
-    """Which particles stay, (N,), so that no two of different parts are nearer than `apart`; the shallower ones do."""
+    """True for particles that stay, (N,): of two of different parts nearer than `apart`, the shallower one."""
     kept = np.ones(len(positions), bool)
     if len(positions) < 2:
         return kept

@@ -55,7 +55,7 @@ def flows(settings: Settings) -> list[references.CavityFlow]:
 
 
 def reference(settings: Settings, time: float) -> references.CavityFlow | None:
-    """That flow, if this is the time of its profiles."""
+    """The flow of the reference, if this is the time of its profiles."""
     return next((known for known in flows(settings) if abs(known.time - time) <= cavity.EQUAL * time), None)
 
 

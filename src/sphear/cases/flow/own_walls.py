@@ -34,11 +34,11 @@ class AroundSolid(FlowCase):
         vars(self).update({name: getattr(case, name) for name in SHARED})
 
     def problem(self, settings: Settings) -> Problem:
-        """That of the case with the solid in its fluid."""
+        """The problem of the case with the solid in its fluid."""
         return around(self.case.problem(settings), self.solid)
 
     def time_unit(self, settings: Settings) -> float:
-        """That of the case."""
+        """The time unit of the case."""
         return self.case.time_unit(settings)
 
     def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:

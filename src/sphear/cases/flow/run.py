@@ -14,7 +14,7 @@ from sphear.cases.flow.own_walls import opened
 from sphear.names import unknown
 from sphear.progress import no_progress
 from sphear.schemes.base import flow_in_time
-from sphear.schemes.named import named
+from sphear.schemes.registered_names import named
 from sphear.schemes.watch import Watch
 from sphear.simulation.observers import Observer
 from sphear.simulation.observers.base import check_observer

@@ -24,7 +24,7 @@ _READ = os.O_RDONLY | sum(getattr(os, name, 0) for name in ("O_NOFOLLOW", "O_NON
 
 
 def is_private(status: os.stat_result) -> bool:
-    """Whether a file or folder is of this user, and nobody else may write it; always, where there are no users."""
+    """True if a file or folder is of this user, and nobody else may write it; always, where there are no users."""
     if not hasattr(os, "geteuid"):
         return True
     return status.st_uid == os.geteuid() and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
@@ -73,7 +73,7 @@ def sealed(key: str, content: bytes) -> bytes:
 
 
 def unsealed(key: str, content: bytes | None) -> bytes | None:
-    """What was sealed with this key; None if it was not, or is damaged."""
+    """Open what was sealed with this key; None if it was not, or is damaged."""
     begin = len(_SEAL) + hashlib.sha256().digest_size
     if content is None or content[:begin] != _SEAL + _checksum(key, content[begin:]):
         return None

@@ -65,7 +65,7 @@ class MachineCode(NullCache):
         keep(path, sealed(key, dumps(data._reduce())))
 
     def _key(self, sig: Any, codegen: Any) -> str:
-        """What the machine code depends on; empty if that differs from process to process."""
+        """The key of all that the machine code depends on; empty if that differs from process to process."""
         function, code = self._function, self._function.__code__
         # the name of generated code is that of its text
         source = "" if function.__module__.startswith("sphear_") else source_stamp(code.co_filename)

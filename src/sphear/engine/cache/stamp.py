@@ -1,4 +1,4 @@
-"""What all compiled code depends on besides its own text."""
+"""A stamp of all that compiled code depends on besides its own text."""
 
 from __future__ import annotations
 

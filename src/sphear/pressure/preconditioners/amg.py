@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from sphear.errors import SphearError
 from sphear.pressure.preconditioners.base import Preconditioner, Vector
-from sphear.pressure.system import PressureSystem
+
+if TYPE_CHECKING:
+    from sphear.pressure.system import PressureSystem
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ class AlgebraicMultigrid(Preconditioner):
         """Choose the coarse levels and set them up."""
         self.check()
         import pyamg
+        from scipy.sparse import csr_matrix  # takes long: preconditioners are listed without it
 
         matrix = csr_matrix(-system.matrix)  # pyamg takes no csr_array, and positive definite matrices
         matrix.indices, matrix.indptr = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from sphear.pressure.system import PressureSystem
+if TYPE_CHECKING:
+    from sphear.pressure.system import PressureSystem
+
 
 Vector = np.ndarray[Any, np.dtype[np.float64]]
 

@@ -4,43 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import prod
+from typing import TYPE_CHECKING
 
-import numpy as np
-from scipy.fft import next_fast_len
-
-from sphear.engine.cache import compiled
 from sphear.errors import SphearError, quoted
 from sphear.positive import is_positive
 from sphear.pressure.preconditioners.base import Preconditioner, Vector
-from sphear.pressure.preconditioners.multigrid import PartlyFilled
-from sphear.pressure.preconditioners.poisson import BoxPoisson
-from sphear.pressure.preconditioners.transfer import corners, deposit, interpolate_and_add
-from sphear.pressure.system import PressureSystem
 
-FULL = 0.25  # of a node, from which on it is not a hole; disordered particles leave more than half
-SAMPLE = 500  # rows that the coefficient of the Laplacian is measured from
-
-
-@compiled
-def laplacian_coefficient(first, column, entry, positions, periods, step):  # type: ignore[no-untyped-def]
-    """c of A ~ c lap: the mean of sum_j w_ij |r_j - r_i|^2 / (2 d), which is one for lap |r|^2 = 2 d, over some rows.
-
-    Rows near walls have neighbours on one side only and count less, as they should: their matrix is as much smaller.
-    """
-    dimension = positions.shape[1]
-    total, rows = 0.0, 0
-    for i in range(0, len(first) - 1, step):
-        for k in range(first[i], first[i + 1]):
-            square = 0.0
-            for axis in range(dimension):
-                d = positions[column[k], axis] - positions[i, axis]
-                if periods[axis] > 0.0:
-                    d -= periods[axis] * np.rint(d / periods[axis])
-                square += d * d
-            total += entry[k] * square
-        rows += 1
-    return total / (2 * dimension * rows)
+if TYPE_CHECKING:
+    from sphear.pressure.system import PressureSystem
 
 
 @dataclass(frozen=True)
@@ -89,33 +60,6 @@ class Grid(Preconditioner):
 
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """Weights between particles and grid, eigenvalues, diagonal."""
-        matrix, positions = system.matrix, system.positions
-        extent = [high - low for low, high in zip(system.lower, system.upper, strict=True)]
-        # transforms like lengths of small prime factors
-        counts = tuple(next_fast_len(max(1, round(x / (self.coarsening * system.spacing))), real=True) for x in extent)
-        size = tuple(x / count for x, count in zip(extent, counts, strict=True))
-        periods = np.array([x if flag else 0.0 for x, flag in zip(extent, system.periodic, strict=True)])
-        step = -(-system.unknowns // SAMPLE)
-        c = laplacian_coefficient(matrix.indptr, matrix.indices, matrix.data, positions, periods, step)
-        nodes, weights = corners(
-            positions, np.array(system.lower), np.array(size), np.array(counts), np.array(system.periodic)
-        )
-        particles = prod(size) / system.spacing**system.dimension  # that a node stands for
-        # the grid's equations have the opposite sign, and so has what is deposited
-        jacobi, ones = -self.damping / matrix.diagonal(), np.ones(system.unknowns)
-        room, share, penalty = np.zeros((3, prod(counts)))
-        deposit(nodes, weights, ones / particles, share)
-        poisson: Callable[[Vector], Vector]
-        if system.singular and share.min() > FULL:
-            poisson = BoxPoisson(counts, size, system.periodic, 1.0 / (c * particles))
-        else:
-            if not system.singular:
-                deposit(nodes, weights, np.maximum(-(matrix @ ones), 0.0), penalty)
-            poisson = PartlyFilled(counts, size, system.periodic, c * particles, share, penalty)
+        from sphear.pressure.preconditioners.two_levels import two_levels  # compiled: the grid is listed without it
 
-        def apply(vector: Vector) -> Vector:
-            deposit(nodes, weights, vector, room)
-            result: Vector = interpolate_and_add(nodes, weights, poisson(room), jacobi, vector)
-            return np.negative(result, out=result)
-
-        return apply
+        return two_levels(system, self.coarsening, self.damping)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from sphear.pressure.preconditioners.base import Preconditioner, Vector
-from sphear.pressure.system import PressureSystem
+
+if TYPE_CHECKING:
+    from sphear.pressure.system import PressureSystem
 
 
 @dataclass(frozen=True)

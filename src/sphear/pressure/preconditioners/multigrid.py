@@ -10,7 +10,7 @@ import numpy as np
 
 from sphear.engine.cache import compiled
 from sphear.pressure.preconditioners.coarsest import pseudo_inverse
-from sphear.pressure.preconditioners.transfer import corners, deposit, interpolate_and_add
+from sphear.pressure.preconditioners.transfer import deposit, interpolate_and_add, surrounding_nodes
 
 Array = np.ndarray[Any, Any]
 
@@ -52,7 +52,7 @@ def relax(beside, coupling, inverse, source, values, backward):  # type: ignore[
 
 
 @compiled
-def remainder(beside, coupling, inverse, source, values, result):  # type: ignore[no-untyped-def]
+def residual(beside, coupling, inverse, source, values, result):  # type: ignore[no-untyped-def]
     """result = source - G values."""
     nodes, sides = beside.shape
     for k in range(nodes):
@@ -68,7 +68,7 @@ class Level:
 
     Attributes:
         beside, coupling, inverse: of `stencil`.
-        nodes, weights: of `corners`, the nodes of the coarser grid around those of this one.
+        nodes, weights: of `surrounding_nodes`, the nodes of the coarser grid around those of this one.
         values, source, ones: (nodes,), room to work in.
     """
 
@@ -82,7 +82,7 @@ class Level:
     ones: Array
 
 
-class PartlyFilled:
+class MultigridPoisson:
     """The inverse of the Laplacian on nodes of which some hold no fluid and some are near a given pressure.
 
         (G v)_k = factor sum_l (share_k + share_l) / 2 (v_k - v_l) / size^2 + penalty_k v_k
@@ -143,7 +143,7 @@ class PartlyFilled:
         equation = (level.beside, level.coupling, level.inverse, source)
         level.values[:] = 0.0
         relax(*equation, level.values, False)
-        remainder(*equation, level.values, level.source)
+        residual(*equation, level.values, level.source)
         last = number + 1 == len(self.levels)
         below = len(self.coarsest) if last else len(self.levels[number + 1].source)
         coarse = self._cycle(number + 1, _deposited(level.nodes, level.weights, level.source, below))
@@ -172,9 +172,9 @@ def _beside(counts: tuple[int, ...], periodic: tuple[bool, ...]) -> Array:
 
 @lru_cache(maxsize=64)
 def _between(counts: tuple[int, ...], coarser: tuple[int, ...], periodic: tuple[bool, ...]) -> tuple[Array, Array]:
-    """`corners` of the nodes of one grid in a coarser one, in units of the box."""
+    """`surrounding_nodes` of the nodes of one grid in a coarser one, in units of the box."""
     axes = [(np.arange(count) + 0.5) / count for count in counts]
     places = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(counts))
     size = 1.0 / np.array(coarser)
-    nodes, weights = corners(places, np.zeros(len(counts)), size, np.array(coarser), np.array(periodic))
+    nodes, weights = surrounding_nodes(places, np.zeros(len(counts)), size, np.array(coarser), np.array(periodic))
     return nodes, weights

@@ -12,7 +12,7 @@ Array = np.ndarray[Any, Any]
 
 
 @compiled
-def corners(positions, lower, size, counts, periodic):  # type: ignore[no-untyped-def]
+def surrounding_nodes(positions, lower, size, counts, periodic):  # type: ignore[no-untyped-def]
     """The nodes (n, 2^d) around each particle and their weights (n, 2^d).
 
     Node k of an axis is at the middle of cell k, lower + (k + 1/2) size. The field is even about a wall, so that it is

@@ -25,9 +25,9 @@ from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.shifting import Displacement
 from sphear.schemes.incompressible.step import step
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
-from sphear.schemes.named import named
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
+from sphear.schemes.registered_names import named
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -96,17 +96,17 @@ class IncompressibleFlow:
 
     @property
     def positions(self) -> Array:
-        """(N, d)."""
+        """Positions of the particles, (N, d), in the problem's unit of length."""
         return self.x
 
     @property
     def velocities(self) -> Array:
-        """(N, d)."""
+        """Velocities of the particles, (N, d), in the problem's unit of speed."""
         return self.u
 
     @property
     def pressure(self) -> Array:
-        """(N,), at the positions, along its gradient from where it was found; of the `pressure_time`."""
+        """Pressure (N,) of the `pressure_time`, taken along its gradient from where it was found to the positions."""
         moved, domain = self.x - self.pressure_positions, self.discretisation.domain
         moved = moved if domain is None else domain.shortest(moved)
         result: Array = self.pressures.fluid + np.einsum("nd,nd->n", self.pressure_slopes, moved)
@@ -114,7 +114,7 @@ class IncompressibleFlow:
 
     @property
     def pressure_time(self) -> float:
-        """Of which time the pressure is: `projection=midpoint` finds it in the middle of a step."""
+        """The time that the pressure is of: `projection=midpoint` finds it in the middle of a step."""
         projection = self.settings.projection
         if self.coupled is not None and projection == "intermediate":  # places that only a prediction knows
             projection = "start"
@@ -122,7 +122,7 @@ class IncompressibleFlow:
 
     @property
     def density(self) -> Array:
-        """(N,)."""
+        """Density of the fluid, one number for all particles, (N,), a mass by a volume."""
         return np.full(self.count, self.problem.density)
 
     @staticmethod

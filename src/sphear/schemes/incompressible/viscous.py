@@ -46,7 +46,7 @@ class Viscous:
         return len(self.stages) > 1
 
     def acceleration(self, particles: ParticleSums, velocities: Array, count: int, near: Array | None = None) -> Array:
-        """(N, d).
+        """The viscous acceleration of the fluid's particles, (N, d).
 
         Corrections need neighbours on all sides: of particles with too few, and near a free surface, it is the
         acceleration by the term without its correction, or by Morris's. Missing neighbours leave the surface without

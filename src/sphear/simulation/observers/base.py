@@ -65,7 +65,7 @@ class Observer:
 
     @property
     def at_end(self) -> bool:
-        """Whether it looks where the run ends, whatever its interval: not where it has times of its own."""
+        """True if it looks where the run ends, whatever its interval: not where it has times of its own."""
         return self.when is None
 
     def start(self, run: Run) -> None:

@@ -35,7 +35,7 @@ class Disordered(Poiseuille):
         self.disorder = disorder
 
     def problem(self, settings: Settings) -> Problem:
-        """That of the channel, its particles moved."""
+        """The problem of the channel, its particles moved."""
         problem = super().problem(settings)
         moved = np.random.default_rng(0).uniform(-1, 1, problem.positions.shape) * self.disorder * problem.spacing
         return replace(problem, positions=problem.positions + moved)
@@ -77,7 +77,7 @@ def _observed(run: FlowRun) -> tuple[float, float, float, Array] | None:
 
 
 def _failure(run: FlowRun) -> str:
-    """How the channel has failed by the paper's rule; empty where it has not, or broke down."""
+    """The failure of the channel by the paper's rule, in words; empty where it has not failed, or broke down."""
     if run.failed:
         return ""
     said = POISEUILLE.ended(run.settings, run.flow, POISEUILLE.metrics(run.settings, run.flow)) or ""

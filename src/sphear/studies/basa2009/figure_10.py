@@ -10,7 +10,7 @@ from sphear.results.table import Column, Table
 from sphear.studies.basa2009.cavity_results import compute, corrections, reynolds_numbers
 from sphear.studies.basa2009.models import LEVELS
 from sphear.studies.result import Agreement, StudyResult
-from sphear.studies.rows import Row, failed, how, select
+from sphear.studies.rows import Row, failed, outcome, select
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,7 +34,7 @@ def _table(rows: list[Row]) -> Table:
     names = ("u_mean_deviation", "u_max_deviation", "v_mean_deviation", "v_max_deviation")
     lines = [
         {"reynolds": row["reynolds"], "correction": LEVELS[row["correction"]], "viscosity": row["viscosity"],
-         "end": how(row), **{name: row.get(name) for name in names}}
+         "end": outcome(row), **{name: row.get(name) for name in names}}
         for row in rows
     ]  # fmt: skip
     columns = (

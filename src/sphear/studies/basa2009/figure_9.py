@@ -10,7 +10,7 @@ from sphear.results.table import Column, Table
 from sphear.studies.basa2009.cavity_results import compute, corrections, reynolds_numbers
 from sphear.studies.basa2009.models import LEVELS
 from sphear.studies.result import Agreement, StudyResult
-from sphear.studies.rows import Row, failed, how, select
+from sphear.studies.rows import Row, failed, outcome, select
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,7 +34,7 @@ def _table(rows: list[Row]) -> Table:
     lines = [
         {
             "reynolds": row["reynolds"], "correction": LEVELS[row["correction"]], "viscosity": row["viscosity"],
-            "end": how(row), "kinetic_energy": row["kinetic_energy"],
+            "end": outcome(row), "kinetic_energy": row["kinetic_energy"],
             "error": None if failed(row) else row.get("kinetic_energy_error"),
         }
         for row in rows
@@ -57,7 +57,8 @@ def _finding(rows: list[Row]) -> tuple[str, Agreement]:
             mine = select(rows, reynolds=reynolds, correction=correction)
             if mine:
                 each = (
-                    f"{row['viscosity']} " + (how(row) if failed(row) else f"{row.get('kinetic_energy_error', 0):+.1%}")
+                    f"{row['viscosity']} "
+                    + (outcome(row) if failed(row) else f"{row.get('kinetic_energy_error', 0):+.1%}")
                     for row in mine
                 )
                 parts.append(f"Re = {reynolds:g}, {LEVELS[correction]}: {', '.join(each)}")

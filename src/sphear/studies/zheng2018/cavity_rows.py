@@ -143,7 +143,7 @@ def least(curve: Curve) -> float:
 
 
 def deviations(curve: Curve, known: Curve) -> NDArray[np.float64]:
-    """Of a profile from another: at the inner stations that are in the fluid, those of a table at its own."""
+    """Deviations of two profiles at the inner stations that are in the fluid, those of a table at its own."""
     few = known.stations if known.table else curve.stations
     inner = np.array([x for x in few if 0 < x < 1 and not (known.gap and GAP[0] <= x <= GAP[1])])
     return np.abs(curve.at(inner) - known.at(inner))

@@ -11,7 +11,7 @@ from sphear.references.cavity import CavityFlow, Curve
 from sphear.references.zheng2018 import TERMS as LABELS
 from sphear.results.table import Column, Table
 from sphear.studies.result import Agreement
-from sphear.studies.rows import Row, failed, how, select
+from sphear.studies.rows import Row, failed, outcome, select
 from sphear.studies.zheng2018.cavities import DEFAULTS, OWN_SIZES, PAPER, REYNOLDS, SHIFTED
 from sphear.studies.zheng2018.cavity_rows import reference
 
@@ -158,7 +158,7 @@ def score_table(data: Data) -> Table:
             **row,
             "label": label.get(row["viscosity"]),
             "settings": {DEFAULTS: "defaults", PAPER: "the paper's"}.get(row["preset"], "with shifting"),
-            "how": how(row),
+            "how": outcome(row),
             "kinetic_energy_error": None if failed(row) else row.get("kinetic_energy_error"),
         }
         for row in data["runs"]

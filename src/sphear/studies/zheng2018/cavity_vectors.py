@@ -11,7 +11,7 @@ from sphear.references.cavity import mac
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.figure_8 import CENTRES, vortex_centre
 from sphear.studies.result import Agreement, StudyResult
-from sphear.studies.rows import Row, failed, how
+from sphear.studies.rows import Row, failed, outcome
 from sphear.studies.zheng2018.cavities import DRAWN, REYNOLDS, UNTIL
 from sphear.studies.zheng2018.cavity_rows import WATCHED
 from sphear.studies.zheng2018.cavity_shown import (
@@ -101,7 +101,7 @@ def _said(data: Data, size: int, row: Row | None) -> str:
         )
     if line["energy_growth"] is not None:
         parts.append(f"the energy grew by {line['energy_growth']:.2%} since t = {BEFORE:g}")
-    return f"{size} particles a side, {how(row)}: {', '.join(parts)}"
+    return f"{size} particles a side, {outcome(row)}: {', '.join(parts)}"
 
 
 def _steadiness(data: Data) -> tuple[str, bool]:

@@ -108,7 +108,7 @@ def _on_jittered_particles(paper: Orders, honest: Orders, rows: list[Row]) -> st
 
 
 def _only_visc_03(paper: Orders) -> bool:
-    """Whether VISC-03 is near first order and the others are not."""
+    """True if VISC-03 is near first order and the others are not."""
     third = paper["schwaiger"]
     return abs(third - 1) < 0.2 and all(paper[name] < third - 0.2 for name in paper if name != "schwaiger")
 

@@ -111,7 +111,7 @@ class ProfileFigure:
 
 
 def _ranked(off: dict[str, float]) -> Agreement:
-    """Whether VISC-03 is the nearest, and VISC-01 and VISC-04 are the furthest."""
+    """Judge the ranking: VISC-03 the nearest, VISC-01 and VISC-04 the furthest."""
     first, second, *_ = sorted(off, key=off.__getitem__)
     if first != "schwaiger":
         return "no"

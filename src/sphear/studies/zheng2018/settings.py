@@ -7,7 +7,7 @@ from typing import Any
 
 from sphear.results.table import Column, Table
 from sphear.studies.result import Agreement, Progress, StudyResult
-from sphear.studies.rows import Row, failed, how, select
+from sphear.studies.rows import Row, failed, outcome, select
 from sphear.studies.zheng2018.cavities import UNTIL
 from sphear.studies.zheng2018.cavity_shown import joined, listed
 from sphear.studies.zheng2018.settings_combinations import BY_NAME, LONG_SIZES, READINGS, STATED
@@ -112,7 +112,7 @@ def _table(rows: Sequence[Row]) -> Table:
     lines = [
         {
             **row,
-            "how": how(row),
+            "how": outcome(row),
             "as_stated": "yes" if row["stated"] else "no",
             "distance": None if failed(row) else row["smallest_distance"],
             "density": None if failed(row) else row["density_deviation"],

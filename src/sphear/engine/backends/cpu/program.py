@@ -37,7 +37,7 @@ class Space(NamedTuple):
 
 
 class Ended(NamedTuple):
-    """How a run of stages ended.
+    """The end of a run of stages.
 
     steps: made.
     cause: of a failure, a key of `sphear.engine.stages.CAUSES`; 0 if there was none.

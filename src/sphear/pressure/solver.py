@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from sphear.errors import SphearError
 from sphear.pressure.failure import PressureFailure
-from sphear.pressure.krylov import Run, Vector, iterate
+from sphear.pressure.krylov import KrylovResult, Vector, iterate
 from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Preconditioner, read_preconditioner
 from sphear.pressure.system import ROUNDING, PressureSystem
 from sphear.pressure.vectors import norm
@@ -126,7 +126,7 @@ def _attempt(
     most: int,
     *,
     robust: bool,
-) -> Run:
+) -> KrylovResult:
     inverse = preconditioner.build(system)
     iterations = 0
     for _ in range(REPEATS):
@@ -137,7 +137,7 @@ def _attempt(
         if not finite or iterations >= most or _residual(system, right, run.values)[0] <= SLACK * tolerance:
             break
         guess = run.values
-    return Run(run.values, iterations, run.method)
+    return KrylovResult(run.values, iterations, run.method)
 
 
 def _residual(system: PressureSystem, right: Vector, values: Vector) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Warnings of inputs that are computed but hardly meant: lonely particles, volumes that are not theirs."""
+"""Checks of inputs that are computed but hardly meant: particles without neighbours, volumes that are not theirs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class NoNeighboursError(SphearError):
     """None of the particles has a neighbour."""
 
 
-def tell_of_loneliness(
+def check_isolated(
     positions: Array, alone: Array, support: float, larger: str = "h, spacing or volumes", *, warn: bool = True
 ) -> None:
     """Refuse particles none of which has a neighbour, whose sums are all zero; warn of some that have none.
@@ -44,7 +44,7 @@ def tell_of_loneliness(
         _warn(f"{of}, the first is particle {alone[0]} at ({place})")
 
 
-def tell_of_volumes(volumes: Array, kernel: Kernel, neighbours: Neighbours) -> None:
+def check_volumes(volumes: Array, kernel: Kernel, neighbours: Neighbours) -> None:
     """Warn of volumes with which the kernel sums to something far from one: they are not those of the particles."""
     if neighbours.count == 1 or "chunks" not in neighbours.__dict__:
         return

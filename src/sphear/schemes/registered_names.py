@@ -1,4 +1,4 @@
-"""Settings with the registered names, whatever alias was given; objects stay."""
+"""Names of settings resolved: the registered name for whatever alias was given; objects stay."""
 
 from __future__ import annotations
 
