@@ -75,10 +75,11 @@ def check_connected(problem: Problem, reach: float) -> None:
     )
 
 
-def tree_of(problem: Problem) -> Any:
-    """The particles, to be asked for neighbours, over periodic sides too."""
+def tree_of(problem: Problem, positions: Array | None = None) -> Any:
+    """The particles, at the start or at positions (N, d), to be asked for neighbours, over periodic sides too."""
     window = problem.window
-    places = window.wrapped(np.asarray(problem.positions, np.float64)) - np.array(window.lower)
+    x = np.asarray(problem.positions if positions is None else positions, np.float64)
+    places = window.wrapped(x) - np.array(window.lower)
     periods = np.zeros(places.shape[1])
     for axis in window.periodic_axes:
         periods[axis] = window.upper[axis] - window.lower[axis]

@@ -26,6 +26,7 @@ from sphear.schemes.base import (
     described,
     fineness,
 )
+from sphear.schemes.diagnostics import diagnostics
 from sphear.schemes.formulas import formulas
 from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.objects import text
@@ -86,6 +87,11 @@ class Flow:
         self._program = self._compiled()
         nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
         self.problem = replace(problem, positions=nothing, velocities=nothing)
+
+    @property
+    def density_rate(self) -> Array | None:
+        """(N,): d rho / dt of the last evaluation, a density over a time; None where the density is summed."""
+        return self._fields["density_rate"][: self.count] if "density_rate" in self._fields else None
 
     def _compiled(self) -> Program:
         """The steps, for so many threads."""
@@ -195,8 +201,8 @@ class Flow:
         return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:
-        """Nothing beside what the case says."""
-        return {}
+        """Mach number, density, divergence and distances of particles now, see `sphear.schemes.diagnostics`."""
+        return diagnostics(self)
 
     def resolved(self) -> dict[str, Any]:
         """Settings with names and defaults resolved, and numbers that follow from them."""
