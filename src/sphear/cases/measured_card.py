@@ -35,8 +35,8 @@ class MeasuredCard:
     Examples:
         >>> import sphear
         >>> found = sphear.measured_card("violeau")
-        >>> round(found.order_lattice, 1), found.angular_momentum, found.dissipative
-        (-0.0, True, True)
+        >>> round(found.order_jittered), found.angular_momentum, found.dissipative
+        (-1, True, True)
     """
 
     card: Card
