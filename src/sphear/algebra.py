@@ -4,6 +4,15 @@ Every function works on Python floats (so that a formula can be called and check
 the symbols with which `sphear.engine` writes a formula down as straight-line code. The dimension is the length of a
 tuple, so one source serves 1-D, 2-D and 3-D. Formulas may not branch on values: `positive_part` and `where_less`
 take the place of `if`, which keeps them evaluable on many neighbours at once.
+
+Examples:
+    >>> from sphear import algebra
+    >>> algebra.dot((1.0, 2.0), (3.0, 4.0)), algebra.positive_part(-0.5)
+    (11.0, 0.0)
+    >>> algebra.where_less(1.0, 2.0, 10.0, 20.0)
+    10.0
+    >>> algebra.determinant(((2.0, 1.0), (0.0, 4.0)))
+    8.0
 """
 
 from __future__ import annotations

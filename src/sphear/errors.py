@@ -8,14 +8,33 @@ WHOLE = 1200  # characters of a message
 
 
 class SphearError(ValueError):
-    """A mistake in the input; the message is one sentence, shown by the command line without a traceback."""
+    """A mistake in the input; the message is one sentence, shown by the command line without a traceback.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.CubicSpline(h=-1.0)
+        Traceback (most recent call last):
+            ...
+        sphear.errors.SphearError: the smoothing length h must be positive, not -1.0
+    """
 
     def __init__(self, message: str = "") -> None:
         super().__init__(shortened(message, WHOLE))
 
 
 class TooFewNeighboursError(SphearError):
-    """Some particles have too few (or too badly placed) neighbours for a correction or a fit."""
+    """Some particles have too few (or too badly placed) neighbours for a correction or a fit.
+
+    Examples:
+        >>> import sphear
+        >>> in_line = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]
+        >>> sphear.gradient(in_line, [0.0, 1.0, 2.0], spacing=1.0, correction="renormalised")
+        Traceback (most recent call last):
+            ...
+        sphear.errors.TooFewNeighboursError: 3 of 3 particles have too few neighbours for correction 'renormalised', ...
+        >>> sphear.gradient(in_line, [0.0, 1.0, 2.0], spacing=1.0, correction="renormalised", fallback="nan").shape
+        (3, 2)
+    """
 
 
 class OutputError(SphearError):
@@ -23,7 +42,17 @@ class OutputError(SphearError):
 
 
 class SphearWarning(UserWarning):
-    """An input that can be computed but is hardly meant; the message is one sentence."""
+    """An input that can be computed but is hardly meant; the message is one sentence.
+
+    Examples:
+        >>> import warnings
+        >>> import sphear
+        >>> warnings.simplefilter("error", sphear.SphearWarning)  # to be stopped by one
+        >>> sphear.laplacian([(0.0, 0.0), (1.0, 0.0), (9.0, 9.0)], [0.0, 1.0, 2.0], spacing=1.0)
+        Traceback (most recent call last):
+            ...
+        sphear.errors.SphearWarning: 1 of 3 particles have no neighbour within the support of 3.14, ...
+    """
 
 
 class Interrupted(Exception):

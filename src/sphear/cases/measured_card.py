@@ -31,6 +31,12 @@ class MeasuredCard:
         linear_momentum: it is conserved to rounding.
         angular_momentum: it is conserved to rounding.
         dissipative: no velocity gains energy.
+
+    Examples:
+        >>> import sphear
+        >>> found = sphear.measured_card("violeau")
+        >>> round(found.order_jittered), found.angular_momentum, found.dissipative
+        (-1, True, True)
     """
 
     card: Card
@@ -72,11 +78,11 @@ def measured_card(term: str | ViscousTerm, progress: Callable[[str], None] = no_
     Raises:
         SphearError: there is no such term, or its sums cannot be computed.
 
-    Example:
+    Examples:
+        >>> import sphear
         >>> found = sphear.measured_card(sphear.Morris())
-        >>> found.linear_momentum, found.angular_momentum
-        (True, False)
-        >>> print(found)
+        >>> found.linear_momentum, found.angular_momentum, found.dissipative
+        (True, False, True)
     """
     if not isinstance(term, str | ViscousTerm):
         raise SphearError(f"measured_card takes the name of a viscous term or an object, not {quoted(term)}")

@@ -54,6 +54,14 @@ class PatchTest(BaseModel):
 
     Raises:
         SphearError: a setting is unknown or wrong.
+
+    Examples:
+        >>> import sphear
+        >>> rows = sphear.PatchTest(viscosity=("fatehi_manzari",), sizes=(20, 40)).rows()
+        >>> [(row["particles"], row["l1"] < 0.01) for row in rows]
+        [(20, True), (40, True)]
+        >>> round(rows[-1]["order"])
+        2
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")

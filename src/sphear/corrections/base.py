@@ -16,6 +16,14 @@ class Correction:
     """A way to make sums over disordered or missing neighbours consistent.
 
     `prepared` is what `preparation` sums up for the particle; the corrected kernel W~ is evaluated from it.
+    One of your own has the methods `preparation`, `value` and `gradient`: docs/how-to/extending.md.
+
+    Examples:
+        >>> import sphear
+        >>> isinstance(sphear.Shepard(), sphear.Correction)
+        True
+        >>> print(sphear.Shepard.formula)
+        W~_ab = W_ab / <1>_a, its derivatives by the quotient rule
     """
 
     name: ClassVar[str] = "unnamed"

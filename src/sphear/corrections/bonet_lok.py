@@ -54,7 +54,16 @@ class BonetLokPreparation:
 class BonetLok(Correction):
     """Level 1: the Shepard kernel with its gradient multiplied by L, which makes gradients of linear fields exact.
 
-    Second derivatives are those of level 0: the mixed correction has none of its own.
+    L_i = (sum_j V_j grad W^[0]_ij (x) r_j)^-1, W^[0] being that of `Shepard`. Second derivatives are those of level 0,
+    too: the mixed correction has none of its own (Bonet & Lok 1999; Basa, Quinlan & Lastiwka 2009, eqs. 24 to 26).
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20  # a lattice, 0.05 apart
+        >>> gradients = sphear.gradient(positions, 3 * positions[:, 0], spacing=0.05, correction=sphear.BonetLok())
+        >>> print(gradients[0, 0].round(2))  # in the corner
+        3.0
     """
 
     name = "bonet_lok"

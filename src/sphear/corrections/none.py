@@ -13,7 +13,17 @@ from sphear.kernels import Kernel
 
 @dataclass(frozen=True)
 class NoCorrection(Correction):
-    """The kernel as it is."""
+    """The kernel as it is: W~ = W.
+
+    Gingold & Monaghan 1977; Lucy 1977.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.CubicSpline(h=0.1)
+        >>> corrected = sphear.NoCorrection().gradient(kernel, None, (0.05, 0.0), 0.0025)
+        >>> corrected == kernel.gradient((0.05, 0.0), 0.0025)
+        True
+    """
 
     name = "none"
     aliases = ("uncorrected",)

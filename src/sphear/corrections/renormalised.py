@@ -52,7 +52,19 @@ class RenormalisationPreparation:
 
 @dataclass(frozen=True)
 class Renormalised(Correction):
-    """The gradient renormalisation of Oger et al.: grad W~ = Gamma grad W; W and its second derivatives stay."""
+    """The gradient renormalisation of Oger et al.: grad W~ = Gamma grad W; W and its second derivatives stay.
+
+    Gamma_i = (sum_j V_j grad W_ij (x) (r_j - r_i))^-1: gradients of linear fields from differences are exact (Oger,
+    Doring, Alessandrini & Ferrant 2007; Zheng, Ma & Shao 2018, eq. 19).
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20  # a lattice, 0.05 apart
+        >>> gradients = sphear.gradient(positions, 3 * positions[:, 0], spacing=0.05, correction=sphear.Renormalised())
+        >>> print(gradients[0, 0].round(2))  # in the corner
+        3.0
+    """
 
     name = "renormalised"
     aliases = ("oger", "renormalized", "gradient")

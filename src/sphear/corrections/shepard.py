@@ -53,7 +53,16 @@ class ShepardPreparation:
 class Shepard(Correction):
     """Level 0: W~ = W / <1>, differentiated as a quotient.
 
-    Constants are reproduced exactly, and the derivatives of a constant are zero.
+    Constants are reproduced exactly, and the derivatives of a constant are zero. <1>_i = sum_j V_j W_ij, the particle
+    itself included (Basa, Quinlan & Lastiwka 2009, eqs. 21 to 23).
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20  # a lattice, 0.05 apart
+        >>> values = sphear.interpolate(positions, np.ones(400), spacing=0.05, correction=sphear.Shepard())
+        >>> print(values[0].round(2))  # in the corner
+        1.0
     """
 
     name = "shepard"

@@ -14,6 +14,14 @@ class EquationOfState:
     """The pressure p of a fluid of density rho, and of specific internal energy e where `uses_energy` says so.
 
     Densities are in kg/m^3, pressures in Pa, energies in J/kg and speeds in m/s, or in any other consistent units.
+
+    Examples:
+        >>> import sphear
+        >>> air = sphear.IdealGas(gamma=1.4)
+        >>> isinstance(air, sphear.EquationOfState), air.uses_energy
+        (True, True)
+        >>> round(air.pressure(1.2, 2.1e5)), round(air.sound_speed(1.2, 2.1e5), 1)
+        (100800, 342.9)
     """
 
     name: ClassVar[str] = "unnamed"
@@ -45,6 +53,18 @@ class Barotropic(EquationOfState):
 
     Raises:
         SphearError: rho0 or c0 is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> class Quadratic(sphear.Barotropic):
+        ...     def pressure(self, density, energy=None):
+        ...         return self.c0**2 * (density**2 - self.rho0**2) / (2 * self.rho0)
+        ...
+        ...     def sound_speed(self, density, energy=None):
+        ...         return self.c0 * (density / self.rho0) ** 0.5
+        ...
+        >>> Quadratic(rho0=1000.0, c0=10.0).pressure(1010.0)
+        1005.0
     """
 
     rho0: float

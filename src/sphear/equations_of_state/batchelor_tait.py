@@ -13,7 +13,9 @@ from sphear.errors import SphearError
 
 @dataclass(frozen=True)
 class BatchelorTait(Barotropic):
-    """The equation of state of water, with a speed of sound that may be chosen.
+    """The equation of state of water, p = rho0 c0^2 / gamma ((rho / rho0)^gamma - 1); its speed of sound may be chosen.
+
+    Batchelor 1967; Monaghan 1994, J. Comput. Phys. 110:399; Basa, Quinlan & Lastiwka 2009, eq. 13.
 
     The power gamma is an integer and part of the traced code, because a trace has whole powers only. `density` takes a
     root: it is for NumPy and plain numbers, to set up a state, and not for traces.
@@ -25,6 +27,13 @@ class BatchelorTait(Barotropic):
 
     Raises:
         SphearError: rho0 or c0 is not a positive number, or gamma not such an integer.
+
+    Examples:
+        >>> import sphear
+        >>> water = sphear.BatchelorTait(rho0=1000.0, c0=10.0)
+        >>> pressure = water.pressure(1010.0)
+        >>> round(pressure), round(water.density(pressure)), round(water.sound_speed(1010.0), 2)
+        (1031, 1010, 10.3)
     """
 
     gamma: int = 7

@@ -13,11 +13,19 @@ from sphear.errors import SphearError
 class IdealGas(EquationOfState):
     """An ideal gas of constant heat capacities: p = rho R T with R T = (gamma - 1) e.
 
+    Basa, Quinlan & Lastiwka 2009, eq. 12, with the energy of eq. 14.
+
     Args:
         gamma: the ratio of the heat capacities, more than 1; 1.4 is that of air.
 
     Raises:
         SphearError: gamma is not a finite number above 1; or, from each method, no energy is given.
+
+    Examples:
+        >>> import sphear
+        >>> air = sphear.IdealGas(gamma=1.4)
+        >>> round(air.pressure(1.2, energy=2.1e5)), round(air.sound_speed(1.2, energy=2.1e5), 1)
+        (100800, 342.9)
     """
 
     gamma: float = 1.4

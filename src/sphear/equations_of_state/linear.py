@@ -10,7 +10,23 @@ from sphear.equations_of_state.base import Barotropic
 
 @dataclass(frozen=True)
 class Linear(Barotropic):
-    """The tangent of `BatchelorTait` at the reference density: one speed of sound at every density."""
+    """The tangent of `BatchelorTait` at the reference density, p = c0^2 (rho - rho0): one speed of sound.
+
+    Morris, Fox & Zhu 1997, J. Comput. Phys. 136:214.
+
+    Args:
+        rho0: the reference density, where the pressure is zero, in kg/m^3.
+        c0: the speed of sound, in m/s.
+
+    Raises:
+        SphearError: rho0 or c0 is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> equation = sphear.Linear(rho0=1000.0, c0=10.0)
+        >>> equation.pressure(1010.0), equation.sound_speed(1010.0)
+        (1000.0, 10.0)
+    """
 
     name = "linear"
     aliases = ("linearised", "linearized", "acoustic")

@@ -70,14 +70,20 @@ def viscous_term(name: str, *, aliases: Sequence[str] = ()) -> NamesTerm:
         SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
             thing is no viscous term.
 
-    Example:
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
         >>> @sphear.viscous_term("mine", aliases=("my term",))
         ... class Mine(sphear.LaplacianTerm):
         ...     factor: float = 2.0
         ...
         ...     def weight(self, kernel, correction, own, d, r2):
         ...         return -self.factor * correction.radial(kernel, own.prepared, d, r2) / r2
-        >>> sphear.laplacian(positions, values, viscosity="mine")
+        ...
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20
+        >>> lap = sphear.laplacian(positions, positions[:, 0] ** 2, spacing=0.05, viscosity="mine")
+        >>> print(lap[210].round(1))  # in the middle
+        2.0
     """
     decorator: Any = _named(protocol.TERM, VISCOSITY, name, aliases)
     named: NamesTerm = decorator
@@ -103,11 +109,14 @@ def kernel(name: str, *, aliases: Sequence[str] = ()) -> Callable[[KernelT], Ker
         SphearError: a name is taken, with what has it, or is no name; the class lacks a method or an attribute; or the
             thing is no class of a kernel.
 
-    Example:
+    Examples:
+        >>> import sphear
         >>> @sphear.kernel("mine")
         ... class Mine(sphear.WendlandC2):
-        ...     '''The kernel of Wendland, by a name of one's own.'''
-        >>> sphear.gradient(positions, values, kernel="mine")
+        ...     pass
+        ...
+        >>> print(sphear.Incompressible(kernel="mine"))
+        Incompressible(kernel='mine')
     """
     return _named(protocol.KERNEL, KERNELS, name, aliases)
 
@@ -131,11 +140,14 @@ def correction(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Correctio
         SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
             thing is no correction.
 
-    Example:
+    Examples:
+        >>> import sphear
         >>> @sphear.correction("mine")
         ... class Mine(sphear.Shepard):
-        ...     '''The correction of Shepard, by a name of one's own.'''
-        >>> sphear.gradient(positions, values, correction="mine")
+        ...     pass
+        ...
+        >>> print(sphear.Incompressible(gradient_correction="mine"))
+        Incompressible(gradient_correction='mine')
     """
     return _named(protocol.CORRECTION, CORRECTIONS, name, aliases)
 
@@ -158,11 +170,14 @@ def equation_of_state(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Eq
         SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
             thing is no class of an equation of state.
 
-    Example:
+    Examples:
+        >>> import sphear
         >>> @sphear.equation_of_state("mine")
         ... class Mine(sphear.Linear):
-        ...     '''The linear equation, by a name of one's own.'''
-        >>> sphear.flow("cavity", equation_of_state="mine")
+        ...     pass
+        ...
+        >>> sphear.EQUATIONS_OF_STATE["mine"](rho0=1.0, c0=10.0).pressure(1.5)
+        50.0
     """
     return _named(protocol.EQUATION, EQUATIONS_OF_STATE, name, aliases)
 
@@ -185,6 +200,15 @@ def shifting_method(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Shif
     Raises:
         SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
             thing is no way of shifting.
+
+    Examples:
+        >>> import sphear
+        >>> @sphear.shifting_method("weak")
+        ... class Weak(sphear.Lind):
+        ...     strength: float = 0.2
+        ...
+        >>> sphear.SHIFTING["weak"]
+        Weak(strength=0.2)
     """
     return _named(protocol.SHIFTING, SHIFTING, name, aliases)
 
@@ -197,6 +221,12 @@ def wall_model(name: str, *, aliases: Sequence[str] = ()) -> Callable[[WallModel
     methods of it: all have one. The settings `continuation` and `wall_divergence` are its fields.
 
     Args, returns and raises: as `shifting_method`.
+
+    Examples:
+        >>> import sphear
+        >>> linear = sphear.wall_model("linear_points")(sphear.MirrorPoints(continuation="linear"))
+        >>> print(sphear.Incompressible(walls="linear_points"))
+        Incompressible(walls='linear_points')
     """
     return _named(protocol.WALL_MODEL, WALL_MODELS, name, aliases)
 
@@ -209,5 +239,11 @@ def preconditioner(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Preco
     `PressureSystem` the function that applies nearly its inverse.
 
     Args, returns and raises: as `shifting_method`.
+
+    Examples:
+        >>> import sphear
+        >>> coarse = sphear.preconditioner("coarse")(sphear.Grid(coarsening=4.0))
+        >>> print(sphear.Incompressible(preconditioner="coarse"))
+        Incompressible(preconditioner='coarse')
     """
     return _named(protocol.PRECONDITIONER, PRECONDITIONERS, name, aliases)

@@ -12,13 +12,25 @@ from sphear.positive import is_positive
 
 @dataclass(frozen=True)
 class Kernel:
-    """A radial kernel with compact support.
+    """A radial kernel with compact support: W(r, h) = sigma_d / h^d w(r / h) in d dimensions.
+
+    One of your own has the methods `shape`, `slope` and `curvature`: docs/how-to/extending.md.
 
     Args:
         h: the smoothing length, in units of length; the kernel vanishes from `support` h on.
 
     Raises:
         SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.WendlandC2(h=0.1)
+        >>> isinstance(kernel, sphear.Kernel), kernel.support
+        (True, 2.0)
+        >>> round(kernel.value(0.05**2, dimension=2), 2)  # W at the distance 0.05
+        35.25
+        >>> round(kernel.gradient((0.05, 0.0), 0.05**2)[0], 1)
+        -587.5
     """
 
     h: float

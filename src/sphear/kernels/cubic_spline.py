@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class CubicSpline(Kernel):
-    """The cubic B-spline M4, the kernel of both reproduced papers."""
+    """The cubic B-spline M4, the kernel of both reproduced papers: w(q) = (2 - q)+^3 / 4 - (1 - q)+^3, q = r / h.
+
+    Monaghan & Lattanzio 1985, A&A 149:135.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.CubicSpline(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (45.473, 0.2)
+    """
 
     name = "cubic_spline"
     aliases = ("cubic", "m4", "b_spline")

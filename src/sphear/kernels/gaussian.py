@@ -15,7 +15,22 @@ _OUTSIDE = e_to(-(_CUT**2))  # of the integral in 2-D
 
 @dataclass(frozen=True)
 class Gaussian(Kernel):
-    """The Gaussian, cut at 3 h and scaled so that what is left integrates to one."""
+    """The Gaussian w(q) = exp(-q^2), q = r / h, cut at 3 h and scaled so that what is left integrates to one.
+
+    Gingold & Monaghan 1977, MNRAS 181:375.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.Gaussian(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (31.835, 0.3)
+    """
 
     name = "gaussian"
     aliases = ("gauss",)

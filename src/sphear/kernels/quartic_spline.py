@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class QuarticSpline(Kernel):
-    """The quartic B-spline M5."""
+    """The quartic B-spline M5: w(q) = (5/2 - q)+^4 - 5 (3/2 - q)+^4 + 10 (1/2 - q)+^4, q = r / h.
+
+    Schoenberg 1946; Price 2012, JCP 231:759.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.QuarticSpline(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (36.636, 0.25)
+    """
 
     name = "quartic_spline"
     aliases = ("quartic", "m5")

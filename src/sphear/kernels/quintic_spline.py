@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class QuinticSpline(Kernel):
-    """The quintic B-spline M6, the kernel of Morris, Fox & Zhu 1997."""
+    """The quintic B-spline M6: w(q) = (3 - q)+^5 - 6 (2 - q)+^5 + 15 (1 - q)+^5, q = r / h.
+
+    The kernel of Morris, Fox & Zhu 1997, JCP 136:214.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.QuinticSpline(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (30.766, 0.3)
+    """
 
     name = "quintic_spline"
     aliases = ("quintic", "m6")

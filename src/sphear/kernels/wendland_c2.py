@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class WendlandC2(Kernel):
-    """Wendland's C2 function; its gradient needs no division, and it does not pair particles."""
+    """Wendland's C2 function, w(q) = (1 - q/2)+^4 (2 q + 1), q = r / h; in 1-D (1 - q/2)+^3 (3/2 q + 1).
+
+    Its gradient needs no division, and it does not pair particles. Wendland 1995; Dehnen & Aly 2012, MNRAS 425:1068.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.WendlandC2(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (55.704, 0.2)
+    """
 
     name = "wendland_c2"
     aliases = ("wendland",)

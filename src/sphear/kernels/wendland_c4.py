@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class WendlandC4(Kernel):
-    """Wendland's C4 function."""
+    """Wendland's C4 function, w(q) = (1 - q/2)+^6 (35/12 q^2 + 3 q + 1), q = r / h.
+
+    In 1-D (1 - q/2)+^5 (2 q^2 + 5/2 q + 1). Wendland 1995; Dehnen & Aly 2012, MNRAS 425:1068.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.WendlandC4(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (71.62, 0.2)
+    """
 
     name = "wendland_c4"
     formula = "w(q) = (1 - q/2)+^6 (35/12 q^2 + 3 q + 1); in 1-D (1 - q/2)+^5 (2 q^2 + 5/2 q + 1)"

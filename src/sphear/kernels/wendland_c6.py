@@ -11,7 +11,22 @@ from sphear.kernels.base import Kernel
 
 @dataclass(frozen=True)
 class WendlandC6(Kernel):
-    """Wendland's C6 function."""
+    """Wendland's C6 function, w(q) = (1 - q/2)+^8 (4 q^3 + 25/4 q^2 + 4 q + 1), q = r / h.
+
+    In 1-D (1 - q/2)+^7 (21/8 q^3 + 19/4 q^2 + 7/2 q + 1). Wendland 1995; Dehnen & Aly 2012, MNRAS 425:1068.
+
+    Args:
+        h: the smoothing length, in lengths.
+
+    Raises:
+        SphearError: h is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> kernel = sphear.WendlandC6(h=0.1)
+        >>> round(kernel.value(0.0, dimension=2), 3), round(kernel.radius, 3)
+        (88.672, 0.2)
+    """
 
     name = "wendland_c6"
     formula = "w(q) = (1 - q/2)+^8 (4 q^3 + 25/4 q^2 + 4 q + 1); in 1-D (1 - q/2)+^7 (21/8 q^3 + 19/4 q^2 + 7/2 q + 1)"

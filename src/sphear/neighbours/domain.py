@@ -22,6 +22,16 @@ class Domain:
         lower: the lower corner, one number an axis.
         upper: the upper corner.
         periodic: for each axis whether the flow repeats; a single bool holds for all axes.
+
+    Raises:
+        SphearError: the corners span no box of 1 to 3 axes, or periodic has another number of them.
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> domain = sphear.Domain((0, 0), (1, 1), periodic=(True, False))
+        >>> domain.periodic_axes, domain.wrapped(np.array([(1.25, 0.5)]))
+        ((0,), array([[0.25, 0.5 ]]))
     """
 
     lower: tuple[float, ...]

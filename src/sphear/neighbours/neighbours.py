@@ -53,6 +53,14 @@ class Neighbours:
     Raises:
         SphearError: two particles at the same place; more images or pairs than memory holds; a support for which
             floating point has no squares.
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20  # a lattice, 0.05 apart
+        >>> domain = sphear.Domain((0, 0), (1, 1))
+        >>> sphear.Neighbours(positions, support=0.06, domain=domain).pairs / 400  # neighbours of each
+        4.0
     """
 
     def __init__(

@@ -65,6 +65,13 @@ def laplacian(
     Warns:
         SphearWarning: of particles without neighbours where no fallback is chosen, and of volumes over which the
             kernel does not sum to one.
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20
+        >>> print(sphear.laplacian(positions, positions[:, 0] ** 2, spacing=0.05)[210].round(1))
+        2.0
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,
@@ -111,6 +118,14 @@ def viscous_acceleration(
 
     Raises:
         SphearError: as `laplacian`.
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> positions = np.argwhere(np.ones((20, 20))) / 20
+        >>> u = np.stack((positions[:, 1] ** 2, np.zeros(400)), axis=1)
+        >>> print(sphear.viscous_acceleration(positions, u, dynamic_viscosity=0.01, spacing=0.05)[210, 0].round(3))
+        0.02
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,
@@ -162,6 +177,12 @@ def gradient(
 
     Raises:
         SphearError: as `laplacian`.
+
+    Examples:
+        >>> import sphear
+        >>> corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
+        >>> print(sphear.gradient(corners, [1.0, 2.0, 3.0], spacing=1.0, correction="renormalised")[0].round(6))
+        [1. 2.]
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,
@@ -207,6 +228,12 @@ def interpolate(
     Raises:
         SphearError: as `laplacian`; TooFewNeighboursError where a point has particles within the support, but too few
             or too much in one line for a plane.
+
+    Examples:
+        >>> import sphear
+        >>> corners, inside = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)], [(0.5, 0.25)]
+        >>> print(sphear.interpolate(corners, [1.0, 2.0, 3.0], at=inside, spacing=1.0, correction="linear").round(6))
+        [2.]
     """
     particles = Particles.read(
         positions, kernel=kernel, h_over_dx=h_over_dx, spacing=spacing, volumes=volumes, domain=domain,

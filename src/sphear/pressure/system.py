@@ -68,6 +68,17 @@ class PressureSystem:
     Raises:
         SphearError: sizes do not fit; an entry is not finite; a particle has no neighbour; a diagonal entry is not
             negative; the matrix is singular and not said to be, or the other way round.
+
+    Examples:
+        >>> import numpy as np
+        >>> import sphear
+        >>> from scipy.sparse import csr_array
+        >>> matrix = csr_array([[-3.0, 1.0, 0.0], [1.0, -2.0, 1.0], [0.0, 1.0, -3.0]])
+        >>> box = {"lower": (0.0,), "upper": (3.0,), "periodic": (False,), "spacing": 1.0}
+        >>> positions = np.array([[0.5], [1.5], [2.5]])
+        >>> system = sphear.PressureSystem(matrix, positions, **box, symmetric=True, singular=False)
+        >>> sphear.Jacobi().build(system)(np.array([3.0, 2.0, 3.0]))
+        array([-1., -1., -1.])
     """
 
     matrix: Matrix

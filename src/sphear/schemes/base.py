@@ -29,7 +29,23 @@ SCHEMES = tuple(_SETTINGS)
 
 
 class FlowFailure(SphearError):
-    """A run that broke down: when, where and why."""
+    """A run that broke down: when, where and why.
+
+    Examples:
+        >>> import sphear
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     scheme=sphear.Incompressible(time_step=1.0, force=True),
+        ... )
+        >>> try:
+        ...     cavity.run(until=30.0)
+        ... except sphear.FlowFailure as failure:
+        ...     print(failure)
+        the flow failed at t = 1, particle ...: a particle went through a wall, as when the time step is ...
+    """
 
 
 class FlowInTime(Protocol):

@@ -61,6 +61,11 @@ class WeaklyCompressible(Scheme):
 
     Raises:
         SphearError: a setting is wrong, or two contradict each other.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(viscosity=sphear.Cleary(xi=2.0), density_diffusion=0.0))
+        WeaklyCompressible(viscosity=Cleary(xi=2.0, eta=0.1), density_diffusion=0.0)
     """
 
     name: ClassVar[str] = "explicit"

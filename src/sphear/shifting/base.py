@@ -18,6 +18,13 @@ class ShiftingMethod:
 
     A class of one's own defines `drift`, and `stable_step` where too long a step makes particles clump. Where it has a
     field `strength`, the setting `shifting_strength` is that.
+
+    Examples:
+        >>> import sphear
+        >>> isinstance(sphear.Lind(), sphear.ShiftingMethod)
+        True
+        >>> print(sphear.Lind.formula)
+        w_i = -2 h U a sum_j V_j (1 + 0.2 (W_ij / W(dx))^4) grad W_ij, |w_i| <= U / 2
     """
 
     name: ClassVar[str] = "unnamed"

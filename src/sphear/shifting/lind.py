@@ -20,6 +20,11 @@ class Lind(ShiftingMethod):
 
     Raises:
         SphearError: the strength is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(shifting=sphear.Lind(strength=1.0)))
+        Incompressible(shifting_strength=1.0)
     """
 
     strength: float = 0.5

@@ -11,7 +11,13 @@ from sphear.shifting.base import ShiftingMethod
 
 @dataclass(frozen=True)
 class NoShifting(ShiftingMethod):
-    """Particles move with the fluid alone."""
+    """Particles move with the fluid alone.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(shifting=sphear.NoShifting()))
+        Incompressible(shifting='none')
+    """
 
     name = "none"
     aliases = ("no_shifting",)

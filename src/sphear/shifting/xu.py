@@ -56,6 +56,11 @@ class Xu(ShiftingMethod):
 
     Raises:
         SphearError: the strength is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(shifting=sphear.Xu(strength=1.0)))
+        Incompressible(shifting='xu', shifting_strength=1.0)
     """
 
     strength: float = 0.5

@@ -22,7 +22,7 @@ class Fluid:
     Raises:
         SphearError: density is not positive, viscosity negative, or not one of the two viscosities is given.
 
-    Example:
+    Examples:
         >>> import sphear
         >>> sphear.Fluid(density=1000.0, dynamic_viscosity=1e-3)
         Fluid(density=1000, kinematic_viscosity=1e-06)

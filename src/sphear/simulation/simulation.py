@@ -73,7 +73,7 @@ class Simulation(Run):
     Raises:
         SphearError: the parts do not go together.
 
-    Example:
+    Examples:
         >>> import sphear
         >>> simulation = sphear.Simulation(
         ...     sphear.Rectangle((0, 0), (1, 1)),
@@ -83,6 +83,8 @@ class Simulation(Run):
         ... )
         >>> len(simulation.positions), simulation.reynolds
         (100, 100.0)
+        >>> simulation.run(until=0.1).end, simulation.steps
+        ('time', 2)
     """
 
     def __init__(

@@ -108,6 +108,13 @@ def plan(
     Raises:
         SphearError: a setting is unknown, wrong, without values, both fixed and gone through, or does not go with
             the others; there is no such preset; or there are more than `MOST` combinations.
+
+    Examples:
+        >>> import sphear
+        >>> over = {"viscosity": ["morris", "oger"], "reynolds": [100, 400]}
+        >>> runs = sphear.plan("cavity", over, {"scheme": "incompressible", "resolution": 20})
+        >>> [(run.settings.viscosity, run.settings.reynolds) for run in runs]
+        [('morris', 100.0), ('morris', 400.0), ('oger', 100.0), ('oger', 400.0)]
     """
     from sphear.cases.flow import FLOWS
     from sphear.cases.flow.chosen import flow_settings

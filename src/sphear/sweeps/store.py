@@ -30,6 +30,13 @@ class Store:
 
     Raises:
         SphearError: the folder cannot be written.
+
+    Examples:
+        >>> import sphear
+        >>> (run,) = sphear.plan("cavity", {"viscosity": ["morris"]}, {"scheme": "incompressible", "resolution": 10})
+        >>> store = sphear.Store("results")
+        >>> store.path(run).name, store.get(run)
+        ('cavity-incompressible-morris-none-re100-n10-....json', None)
     """
 
     def __init__(self, folder: str | os.PathLike[str]) -> None:

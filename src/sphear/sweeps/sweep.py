@@ -48,6 +48,7 @@ def run_sweep(
     A run that is lost (its worker was killed, or something unexpected happened) has no result; the others go on. The
     next call computes it again, but for one that has ended with an exception twice. A file that is not the whole result
     of its run is computed again. Ctrl-C ends the workers and keeps what is stored.
+    Workers begin by importing the script that calls: there the call stands below `if __name__ == "__main__":`.
 
     Args:
         runs: what to compute; one that comes up again is computed once.
@@ -65,6 +66,14 @@ def run_sweep(
     Raises:
         SphearError: settings do not go together, workers or the scheduler cannot be used, or a file not be written.
         KeyboardInterrupt: Ctrl-C.
+
+    Examples:
+        >>> import sphear
+        >>> fixed = {"scheme": "incompressible", "resolution": 10, "until": 0.05}
+        >>> runs = sphear.plan("cavity", {"viscosity": ["fatehi_manzari"]}, fixed)
+        >>> results = sphear.run_sweep(runs, sphear.Store("results"))
+        >>> [result.end for result in results]
+        ['time']
     """
     _check(runs, store, workers, scheduler)
     results, attempts = _stored(runs, store, say)

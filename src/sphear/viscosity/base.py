@@ -22,6 +22,14 @@ class ViscousTerm:
 
     In its formulas a particle has the attributes `velocity`, `volume`, `density` and `dynamic_viscosity`, and `own`
     has, as `prepared`, what `preparation` has summed up for it.
+
+    Examples:
+        >>> import sphear
+        >>> term = sphear.VISCOSITY["D"]
+        >>> isinstance(term, sphear.ViscousTerm), term.name, term.radial
+        (True, 'cleary', True)
+        >>> print(term.where_it_varies)
+        div(mu grad u) + (grad u)^T grad mu
     """
 
     name: ClassVar[str] = "unnamed"
@@ -71,7 +79,13 @@ class ViscousTerm:
 
 @dataclass(frozen=True, repr=False)
 class LaplacianTerm(ViscousTerm):
-    """A viscous term that is the Laplacian of each component: lap f_i = sum_j V_j w_ij (f_j - f_i)."""
+    """A viscous term that is the Laplacian of each component: lap f_i = sum_j V_j w_ij (f_j - f_i).
+
+    Examples:
+        >>> import sphear
+        >>> isinstance(sphear.Morris(), sphear.LaplacianTerm), isinstance(sphear.Violeau(), sphear.LaplacianTerm)
+        (True, False)
+    """
 
     def weight(self, kernel: Kernel, correction: Correction, own: Any, d: Vector, r2: Scalar) -> Scalar:
         """The weight w_ij of lap f_i = sum_j V_j w_ij (f_j - f_i)."""

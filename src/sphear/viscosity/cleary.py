@@ -24,6 +24,20 @@ class Cleary(ViscousTerm):
     Args:
         xi: the factor; None takes d + 2.
         eta: regularisation in smoothing lengths.
+
+    Raises:
+        SphearError: xi is not positive, or eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["cleary_4.24"] == sphear.Cleary(xi=4.24)
+        True
+        >>> print(sphear.Cleary())
+        Cleary(xi=None, eta=0.1)
+          ...
+          order, lattice   -0.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.1   (jitter 0.3 dx)
+          ...
     """
 
     xi: float | None = None

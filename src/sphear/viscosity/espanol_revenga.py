@@ -22,6 +22,20 @@ class EspanolRevenga(ViscousTerm):
 
     Args:
         bulk: the bulk viscosity zeta as a multiple of the dynamic viscosity.
+
+    Raises:
+        SphearError: bulk is not finite.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(viscosity=sphear.EspanolRevenga(bulk=1.0)))
+        Incompressible(viscosity=EspanolRevenga(bulk=1.0))
+        >>> print(sphear.EspanolRevenga())
+        EspanolRevenga(bulk=0.0)
+          ...
+          order, lattice   -0.2   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.0   (jitter 0.3 dx)
+          ...
     """
 
     bulk: float = 0.0

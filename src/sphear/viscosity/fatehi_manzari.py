@@ -94,6 +94,17 @@ class FatehiManzari(LaplacianTerm):
 
     B is the symmetric tensor that makes the sum exact for every quadratic field, so that the error on disordered
     particles is of first order; on a lattice of second.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["fatehi"] == sphear.FatehiManzari()
+        True
+        >>> print(sphear.FatehiManzari())
+        FatehiManzari()
+          ...
+          order, lattice   +2.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  +1.3   (jitter 0.3 dx)
+          ...
     """
 
     name = "fatehi_manzari"

@@ -22,6 +22,17 @@ class Gotoh(LaplacianTerm):
 
     Args:
         printed: the form as printed, to be compared with.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(viscosity=sphear.Gotoh(printed=True)))
+        Incompressible(viscosity=Gotoh(printed=True))
+        >>> print(sphear.Gotoh())
+        Gotoh(printed=False)
+          ...
+          order, lattice   +0.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.1   (jitter 0.3 dx)
+          ...
     """
 
     printed: bool = False

@@ -78,6 +78,20 @@ class LeastSquares(LaplacianTerm):
 
     Args:
         degree: 2, 3 or 4; in 2-D at least 5, 9 or 14 neighbours are needed, in 3-D 9, 19 or 34.
+
+    Raises:
+        SphearError: the degree is none of these.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["least_squares_3"] == sphear.LeastSquares(degree=3)
+        True
+        >>> print(sphear.LeastSquares())
+        LeastSquares(degree=2)
+          ...
+          order, lattice   +2.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  +1.6   (jitter 0.3 dx)
+          ...
     """
 
     degree: int = 2

@@ -26,6 +26,20 @@ class Monaghan(ViscousTerm):
         sound_speed: c, where alpha is given.
         receding: let pairs that move apart feel the linear part too.
         eta: regularisation in smoothing lengths.
+
+    Raises:
+        SphearError: alpha, beta, sound_speed or eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(viscosity=sphear.Monaghan(alpha=0.1)))
+        WeaklyCompressible(viscosity=Monaghan(alpha=0.1, beta=0.0, sound_speed=1.0, receding=False, eta=0.1))
+        >>> print(sphear.Monaghan())
+        Monaghan(alpha=None, beta=0.0, sound_speed=1.0, receding=False, eta=0.1)
+          ...
+          order, lattice   -0.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -0.7   (jitter 0.3 dx)
+          ...
     """
 
     alpha: float | None = None

@@ -19,6 +19,20 @@ class Morris(LaplacianTerm):
 
     Args:
         eta: regularisation in smoothing lengths; None leaves it out, as Basa's eq. 35 does.
+
+    Raises:
+        SphearError: eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["VISC-01"] == sphear.Morris()
+        True
+        >>> print(sphear.Morris())
+        Morris(eta=None)
+          ...
+          order, lattice   +0.2   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.1   (jitter 0.3 dx)
+          ...
     """
 
     eta: float | None = None

@@ -19,6 +19,20 @@ class Oger(LaplacianTerm):
 
     Args:
         eta: regularisation in smoothing lengths; None leaves it out.
+
+    Raises:
+        SphearError: eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["VISC-04"] == sphear.Oger()
+        True
+        >>> print(sphear.Oger())
+        Oger(eta=None)
+          ...
+          order, lattice   +2.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.1   (jitter 0.3 dx)
+          ...
     """
 
     eta: float | None = None

@@ -53,6 +53,20 @@ class Schwaiger(LaplacianTerm):
 
     Args:
         eta: regularisation in smoothing lengths; None leaves it out.
+
+    Raises:
+        SphearError: eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["VISC-03"] == sphear.Schwaiger()
+        True
+        >>> print(sphear.Schwaiger())
+        Schwaiger(eta=None)
+          ...
+          order, lattice   +2.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -0.1   (jitter 0.3 dx)
+          ...
     """
 
     eta: float | None = None

@@ -17,6 +17,17 @@ class Takeda(LaplacianTerm):
 
     The viscous acceleration is that of a compressible fluid of constant viscosity, mu (lap u + grad div u / 3)
     (eq. 6). With level 0 or 1 the second derivatives are those of the Shepard kernel (eq. 23).
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["A"] == sphear.Takeda()
+        True
+        >>> print(sphear.Takeda())
+        Takeda()
+          ...
+          order, lattice   -2.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -2.0   (jitter 0.3 dx)
+          ...
     """
 
     name = "takeda"

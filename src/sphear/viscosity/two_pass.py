@@ -43,6 +43,17 @@ class TwoPass(LaplacianTerm):
     """d2 F / dx_a dx_b = <d/dx_a <dF/dx_b>>: a first derivative of first derivatives, in two sweeps.
 
     Information comes from twice the kernel's support, so walls and edges must be twice as thick.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["B"] == sphear.TwoPass()
+        True
+        >>> print(sphear.TwoPass())
+        TwoPass()
+          ...
+          order, lattice   +0.3   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -2.0   (jitter 0.3 dx)
+          ...
     """
 
     name = "two_pass"

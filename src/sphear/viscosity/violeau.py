@@ -19,6 +19,20 @@ class Violeau(ViscousTerm):
 
     Args:
         eta: regularisation in smoothing lengths.
+
+    Raises:
+        SphearError: eta is negative.
+
+    Examples:
+        >>> import sphear
+        >>> sphear.VISCOSITY["violeau_issa"] == sphear.Violeau()
+        True
+        >>> print(sphear.Violeau())
+        Violeau(eta=0.1)
+          ...
+          order, lattice   -0.0   (of the L1 error in dx, h fixed in dx)
+          order, jittered  -1.1   (jitter 0.3 dx)
+          ...
     """
 
     eta: float | None = 0.1

@@ -21,7 +21,7 @@ class NoSlip:
     Raises:
         SphearError: velocity or spin is no number, or both are given.
 
-    Example:
+    Examples:
         >>> import sphear
         >>> sphear.NoSlip(velocity=(1.0, 0.0))
         NoSlip(velocity=(1.0, 0.0))

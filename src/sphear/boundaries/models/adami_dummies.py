@@ -17,7 +17,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class AdamiDummies(WallModel):
-    """Dummy particles have the mean pressure of the fluid around them, continued by the normal gradient."""
+    """Dummy particles have the mean pressure of the fluid around them, continued by the normal gradient.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(walls=sphear.AdamiDummies()))
+        Incompressible(walls='adami')
+    """
 
     name = "adami"
     aliases = ("adami_dummies",)

@@ -54,6 +54,13 @@ class WallModel:
 
     Raises:
         SphearError: a field is none of these.
+
+    Examples:
+        >>> import sphear
+        >>> isinstance(sphear.SFDI(), sphear.WallModel)
+        True
+        >>> sphear.MirrorPoints().surface_fault, sphear.SFDI().surface_fault
+        ('', 'needs fluid before every wall')
     """
 
     continuation: Continuation = "quadratic"

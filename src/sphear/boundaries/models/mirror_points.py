@@ -12,6 +12,11 @@ class MirrorPoints(WallModel):
     """Dummy particles have the pressure at their mirror points before the wall, continued by its normal gradient.
 
     A plane is fitted to the fluid around a mirror point, so that linear pressures, such as hydrostatic ones, are exact.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(walls=sphear.MirrorPoints(continuation="linear")))
+        Incompressible(continuation='linear')
     """
 
     name = "mirror_points"

@@ -20,6 +20,11 @@ class Natural(WallModel):
     """The sums of the pressure equation end at the wall, where its normal gradient then vanishes by itself.
 
     Behind walls the pressure is that at the mirror points, for its gradient alone.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(walls=sphear.Natural()))
+        Incompressible(walls='natural')
     """
 
     name = "natural"

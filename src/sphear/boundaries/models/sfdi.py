@@ -25,6 +25,11 @@ class SFDI(WallModel):
     """Particles on the wall have the row n . grad p = rho n . a, by simplified finite difference interpolation.
 
     Dummy particles behind them have the pressure of the nearest, continued over their depth.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(walls=sphear.SFDI()))
+        Incompressible(walls='sfdi')
     """
 
     name = "sfdi"

@@ -42,6 +42,14 @@ class Shape(ABC):
 
     Shapes are joined with `|` (fluid of either), `&` (fluid of both), `-` (fluid without) and `~` (fluid and solid
     exchanged). Lengths are in any one unit.
+
+    Examples:
+        >>> import sphear
+        >>> region = sphear.Rectangle((0, 0), (4, 1)) - sphear.Circle((1, 0.5), 0.2)
+        >>> isinstance(region, sphear.Shape), region.bounds
+        (True, ((0.0, 0.0), (4.0, 1.0)))
+        >>> region.distance([(1.0, 0.5), (1.0, 0.8), (3.0, 0.5)]).round(2)  # in the solid, near it, amid the fluid
+        array([-0.2,  0.1,  0.5])
     """
 
     @property

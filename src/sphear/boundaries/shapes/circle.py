@@ -27,6 +27,13 @@ class Circle(Primitive):
 
     Raises:
         SphearError: there is no such circle, or its wall is too fast.
+
+    Examples:
+        >>> import sphear
+        >>> drum = sphear.Circle((0, 0), 1.0, spin=2.0)
+        >>> distance, normal, velocity = drum.foot([(0.75, 0.0)])
+        >>> print(distance, normal, abs(velocity))
+        [0.25] [[-1. -0.]] [[0. 2.]]
     """
 
     centre: Vector

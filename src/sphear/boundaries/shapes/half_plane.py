@@ -37,6 +37,12 @@ class HalfPlane(Primitive):
 
     Raises:
         SphearError: the normal is zero, or the wall moves through itself.
+
+    Examples:
+        >>> import sphear
+        >>> above = sphear.HalfPlane((0, 1), inward=(0, 2))
+        >>> above.inward, above.distance([(5.0, 1.5), (5.0, 0.0)])
+        ((0.0, 1.0), array([ 0.5, -1. ]))
     """
 
     point: Vector

@@ -43,6 +43,13 @@ class Polygon(Primitive):
 
     Raises:
         SphearError: the vertices make no polygon, its edges meet elsewhere, or an edge moves through itself.
+
+    Examples:
+        >>> import sphear
+        >>> triangle = sphear.Polygon([(0, 0), (1, 0), (0, 1)], velocities={0: (1.0, 0.0)})
+        >>> distance, normal, velocity = triangle.foot([(0.25, 0.125)])
+        >>> print(distance, velocity)
+        [0.125] [[1. 0.]]
     """
 
     vertices: Sequence[Vector]

@@ -45,6 +45,13 @@ class Rectangle(Primitive):
 
     Raises:
         SphearError: the corners do not span a rectangle, or a side moves through itself.
+
+    Examples:
+        >>> import sphear
+        >>> channel = sphear.Rectangle((0, 0), (4, 1), velocities={"upper": (1.0, 0.0)})
+        >>> distance, normal, velocity = channel.foot([(2.0, 0.75)])
+        >>> print(distance, velocity)
+        [0.25] [[1. 0.]]
     """
 
     lower: Vector

@@ -42,6 +42,12 @@ def flow(
 
     Raises:
         SphearError: there is no such case, preset, setting or end, or one does not fit the others.
+
+    Examples:
+        >>> import sphear
+        >>> run = sphear.flow("cavity", scheme="incompressible", resolution=10, until=0.05).run()
+        >>> run.end, run.history[-1]["steps"], run.flow.positions.shape
+        ('time', 1, (100, 2))
     """
     from sphear.cases.flow import FLOWS
 

@@ -51,6 +51,15 @@ class FlowRun(Run):
 
     Raises:
         SphearError: the settings do not fit the case or each other, or there is no such end.
+
+    Examples:
+        >>> import sphear
+        >>> run = sphear.flow("cavity", scheme="incompressible", resolution=10, until=0.05)
+        >>> isinstance(run, sphear.FlowRun), run.end
+        (True, '')
+        >>> run = run.run()
+        >>> run.end, run.flow.steps, run.flow.velocities.shape
+        ('time', 1, (100, 2))
     """
 
     def __init__(

@@ -24,6 +24,11 @@ class AlgebraicMultigrid(Preconditioner):
 
     Raises:
         SphearError: pyamg is not installed.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(preconditioner=sphear.AlgebraicMultigrid()))
+        Incompressible(preconditioner='amg')
     """
 
     name = "amg"

@@ -21,6 +21,13 @@ class Preconditioner:
 
     Matrices are negative definite (or semidefinite), and so must be the approximation: conjugate gradients only ask
     that both have the same sign. Of a symmetric matrix the approximation is symmetric.
+
+    Examples:
+        >>> import sphear
+        >>> isinstance(sphear.Grid(), sphear.Preconditioner)
+        True
+        >>> print(sphear.Jacobi.formula)
+        M = D^-1
     """
 
     name: ClassVar[str] = "unnamed"

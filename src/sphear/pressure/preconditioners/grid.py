@@ -41,6 +41,11 @@ class Grid(Preconditioner):
 
     Raises:
         SphearError: one of them is not a positive number.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(preconditioner=sphear.Grid(coarsening=3.0)))
+        Incompressible(preconditioner=Grid(coarsening=3.0, damping=0.7))
     """
 
     coarsening: float = 2.0

@@ -14,7 +14,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Jacobi(Preconditioner):
-    """The inverse of the diagonal."""
+    """The inverse of the diagonal.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(preconditioner=sphear.Jacobi()))
+        Incompressible(preconditioner='jacobi')
+    """
 
     name = "jacobi"
     aliases = ("diagonal",)

@@ -72,6 +72,15 @@ class Incompressible(Scheme):
 
     Raises:
         SphearError: two settings contradict each other.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.Incompressible(walls="sfdi", shifting=sphear.Lind(strength=1.0)))
+        Incompressible(walls='sfdi', shifting_strength=1.0)
+        >>> sphear.Incompressible(shifting="lindt")
+        Traceback (most recent call last):
+            ...
+        sphear.errors.SphearError: there is no shifting named 'lindt': did you mean lind? ...
     """
 
     name: ClassVar[str] = "incompressible"

@@ -37,6 +37,23 @@ class Observer:
 
     Raises:
         SphearError: an interval is not positive, a time is before the start, or more than one of them is given.
+
+    Examples:
+        >>> import sphear
+        >>> class Fastest(sphear.Observer):
+        ...     def look(self, run):
+        ...         return run.flow.time, abs(run.flow.velocities).max()
+        ...
+        >>> observer = Fastest(steps=1)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=0.1).steps, len(observer.rows)
+        (2, 3)
     """
 
     at_start: bool = field(default=True, init=False, repr=False)  # whether it looks before the first step too

@@ -27,9 +27,18 @@ class Call(Observer):
     Raises:
         SphearError: it is no function.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> observer = sphear.Call(lambda simulation: simulation.velocities.max(), every=0.1)
+        >>> observer = sphear.Call(lambda simulation: simulation.velocities.max(), steps=1, at_start=True)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=0.1).steps, len(observer.rows)
+        (2, 3)
     """
 
     function: Callable[[Any], Any] | None = None
@@ -66,9 +75,18 @@ class StopWhen(Call):
         when: or the times of all looks.
         at_start: whether to look before the first step too.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> rule = sphear.StopWhen(lambda simulation: simulation.time > 1.0, steps=10)
+        >>> observer = sphear.StopWhen(lambda simulation: simulation.steps == 3 and "three steps", steps=1)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=10.0).end
+        'three steps'
     """
 
     def look(self, run: Run) -> None:

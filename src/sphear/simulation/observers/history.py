@@ -25,10 +25,19 @@ class History(Observer):
         steps: or the interval in steps.
         when: or the times of all looks.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> sphear.History(every=0.1)
-        History(every=0.1, steps=None, when=None)
+        >>> observer = sphear.History(steps=1)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> history = cavity.run(until=0.1).history
+        >>> history["steps"], history["kinetic_energy"].shape
+        (array([0., 1., 2.]), (3,))
     """
 
     def look(self, run: Run) -> dict[str, float]:

@@ -35,10 +35,21 @@ class Probe(Observer):
     Raises:
         SphearError: the point is none.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> sphear.Probe((0.5, 0.5), every=0.1).point
-        (0.5, 0.5)
+        >>> observer = sphear.Probe((0.5, 0.9), steps=1)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=0.1).steps
+        2
+        >>> time, velocity = observer.rows[-1]
+        >>> round(time, 2), velocity.shape
+        (0.13, (2,))
     """
 
     point: tuple[float, ...] = ()

@@ -45,10 +45,20 @@ class Profile(Observer):
     Raises:
         SphearError: the line is not one, or there is no such component.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> sphear.Profile("u", x=0.5).stations
-        65
+        >>> observer = sphear.Profile("u", x=0.5, stations=5)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=0.1).steps
+        2
+        >>> print(observer.at.round(2), observer.values.shape)
+        [0.17 0.33 0.5  0.67 0.83] (5,)
     """
 
     component: str = "u"

@@ -22,10 +22,11 @@ class Progress(Observer):
     Args:
         steps: between two looks at the clock.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> sphear.Progress().steps
-        10
+        >>> observer = sphear.Progress(steps=100)
+        >>> observer
+        Progress(every=None, steps=100, when=None)
     """
 
     at_start = False

@@ -42,10 +42,20 @@ class Snapshots(Observer):
         steps: or the interval in steps.
         when: or the times of all looks.
 
-    Example:
+    Examples:
         >>> import sphear
-        >>> sphear.Snapshots(steps=100).rows
-        []
+        >>> observer = sphear.Snapshots(steps=1)
+        >>> cavity = sphear.Simulation(
+        ...     sphear.Rectangle((0, 0), (1, 1)),
+        ...     spacing=0.1,
+        ...     fluid=sphear.Fluid(kinematic_viscosity=0.01),
+        ...     boundaries={"upper": sphear.NoSlip(velocity=(1.0, 0.0))},
+        ...     observers=[observer],
+        ... )
+        >>> cavity.run(until=0.1).steps
+        2
+        >>> len(observer.rows), observer.rows[-1].positions.shape
+        (3, (100, 2))
     """
 
     def look(self, run: Run) -> Snapshot:
