@@ -31,6 +31,9 @@ if TYPE_CHECKING:
         SFDI as SFDI,
         WALL_MODELS as WALL_MODELS,
         AdamiDummies as AdamiDummies,
+        ExplicitWallModel as ExplicitWallModel,
+        FixedParticles as FixedParticles,
+        MirrorParticles as MirrorParticles,
         MirrorPoints as MirrorPoints,
         Natural as Natural,
         WallModel as WallModel,
@@ -105,6 +108,12 @@ if TYPE_CHECKING:
     )
     from sphear.schemes.base import FlowFailure as FlowFailure
     from sphear.schemes.incompressible.settings import Incompressible as Incompressible
+    from sphear.schemes.integrators import (
+        INTEGRATORS as INTEGRATORS,
+        Integrator as Integrator,
+        KickDriftKick as KickDriftKick,
+        Midpoint as Midpoint,
+    )
     from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
     from sphear.shifting import (
         SHIFTING as SHIFTING,
@@ -151,7 +160,10 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "sphear.boundaries.conditions": ("FreeSlip", "NoSlip", "Periodic"),
-    "sphear.boundaries.models": ("SFDI", "WALL_MODELS", "AdamiDummies", "MirrorPoints", "Natural", "WallModel"),
+    "sphear.boundaries.models": (
+        "SFDI", "WALL_MODELS", "AdamiDummies", "ExplicitWallModel", "FixedParticles", "MirrorParticles", "MirrorPoints",
+        "Natural", "WallModel",
+    ),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
     "sphear.cases.flow": ("FlowRun", "flow"),
     "sphear.cases.measured_card": ("MeasuredCard", "measured_card"),
@@ -175,6 +187,7 @@ _HOMES = {
     ),
     "sphear.schemes.base": ("FlowFailure",),
     "sphear.schemes.incompressible.settings": ("Incompressible",),
+    "sphear.schemes.integrators": ("INTEGRATORS", "Integrator", "KickDriftKick", "Midpoint"),
     "sphear.schemes.settings": ("WeaklyCompressible",),
     "sphear.shifting": ("SHIFTING", "Lind", "NoShifting", "ShiftingMethod", "Xu"),
     "sphear.simulation.fluid": ("Fluid",),

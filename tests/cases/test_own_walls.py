@@ -49,6 +49,22 @@ def test_every_case_flows_around_a_solid(name: str) -> None:
     assert (depth < 3.5 * dx).sum() > 20
 
 
+ON_THE_LATTICE = {**SOLIDS, "taylor-green": "Rectangle((0.25, 0.25), (0.75, 0.75))"}  # its vortices run into it at once
+
+
+@pytest.mark.parametrize("name", ["cavity", "cavity-cylinder", "taylor-green", "poiseuille"])
+def test_the_explicit_scheme_flows_around_solids_too(name: str) -> None:
+    solid = written(ON_THE_LATTICE[name])
+    run = start(name, scheme="explicit", solid=ON_THE_LATTICE[name], max_steps=12, threads=1).run()
+    assert run.end == "steps"
+    assert solid.distance(run.flow.positions).max() < 0.0
+    assert set(run.history[-1]) >= {"kinetic_energy", "greatest_speed"}
+    assert run.as_dict()["settings"]["walls"] == "fixed"
+    fields = run.flow._fields  # type: ignore[attr-defined]
+    standing = fields["position"][run.flow.count :]
+    assert ((solid.distance(standing) > 0) & (solid.distance(standing) < 3.5 * run.flow.problem.spacing)).sum() > 20
+
+
 @pytest.mark.parametrize(
     ("solid", "place", "distance"),
     [

@@ -10,6 +10,7 @@ import pytest
 from sphear import (
     CORRECTIONS,
     EQUATIONS_OF_STATE,
+    INTEGRATORS,
     KERNELS,
     PRECONDITIONERS,
     SHIFTING,
@@ -35,6 +36,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "walls": WALL_MODELS,
     "shifting": SHIFTING,
     "preconditioners": PRECONDITIONERS,
+    "integrators": INTEGRATORS,
 }
 STUDIES = [f"{paper} {item}" for paper, items in ITEMS.items() for item in items]
 NAMES = {
@@ -50,6 +52,7 @@ SINGULAR = {
     "Equation-of-State": "equations",
     "wall model": "walls",
     "preconditioner": "preconditioners",
+    "integrator": "integrators",
     "study": "studies",
     "case": "cases",
 }

@@ -186,7 +186,7 @@ WRONG: dict[str, tuple[list[str], str]] = {
     ),
     "slip without mirrors": (
         ["cavity", "--set", "walls=fixed", "--set", "wall_divergence=slipping"],
-        "wall_divergence=slipping is about the continuity equation beside mirrors, and not for density=continuity with"
+        "wall_divergence=slipping is about the continuity equation beside mirrors, and not for density=summation with"
         " walls=fixed",
     ),
     "transport of a continuity": (
@@ -194,7 +194,15 @@ WRONG: dict[str, tuple[list[str], str]] = {
         "transport=transport_velocity is made for density=summation, not for density=continuity",
     ),
     "gradients that walls have not": (
-        ["poiseuille", "--set", "diffusion_form=antuono", "--set", "walls=adami"],
+        [
+            "poiseuille",
+            "--set",
+            "diffusion_form=antuono",
+            "--set",
+            "walls=adami",
+            "--set",
+            "density=continuity",
+        ],
         "diffusion_form=antuono needs density gradients in the walls, which walls=adami has not",
     ),
     "sound of a gas": (

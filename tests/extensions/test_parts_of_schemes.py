@@ -33,9 +33,16 @@ class Diagonal(sphear.Preconditioner):
     build = sphear.Jacobi.build
 
 
+class Dynamic(sphear.ExplicitWallModel):
+    """Particles that move with the wall and have a density of their own (Crespo et al. 2007)."""
+
+    integrates_density = True
+
+
 @pytest.fixture
 def own() -> None:
-    """Names for the three."""
+    """Names for all."""
+    sphear.wall_model("dynamic")(Dynamic)
     sphear.shifting_method("sideways")(Sideways)
     sphear.wall_model("twins")(Twins)
     sphear.preconditioner("own_diagonal")(Diagonal)
@@ -80,6 +87,22 @@ def test_a_sweep_sends_the_object_along_with_its_name() -> None:
     sent = {key: value.item for key, value in run.sent.items() if key in ("shifting", "walls")}
     assert sent == {"shifting": Sideways(), "walls": Twins()}
     assert pickle.loads(pickle.dumps(sent)) == sent
+
+
+@pytest.mark.usefixtures("own")
+def test_a_wall_model_of_the_explicit_scheme_is_one_class() -> None:
+    """Behind a lid its particles keep the lid's velocity, and their density follows the continuity equation."""
+    common: dict[str, Any] = {"resolution": 12, "reynolds": 10.0, "density": "continuity", "threads": 1}
+    named, item = (sphear.flow("cavity", walls=walls, **common) for walls in ("dynamic", Dynamic()))
+    for run in (named, item):
+        run.flow.advance(3)
+    np.testing.assert_array_equal(named.flow.velocities, item.flow.velocities)
+    fields: Any = named.flow._fields  # type: ignore[attr-defined]
+    behind = slice(named.flow.count, None)
+    np.testing.assert_array_equal(fields["velocity"][behind], fields["wall_velocity"][behind])
+    assert np.abs(fields["density"][behind] - named.flow.problem.density).max() > 1e-6
+    with pytest.raises(sphear.SphearError, match="walls=dynamic is no wall model of the incompressible scheme"):
+        sphear.Incompressible(walls="dynamic")
 
 
 def test_one_without_its_method_is_refused() -> None:

@@ -9,7 +9,23 @@ import numpy as np
 import pytest
 
 import sphear
-from sphear import SFDI, AdamiDummies, Grid, Incompressible, Jacobi, Lind, MirrorPoints, Natural, NoShifting, Xu
+from sphear import (
+    SFDI,
+    AdamiDummies,
+    FixedParticles,
+    Grid,
+    Incompressible,
+    Jacobi,
+    KickDriftKick,
+    Lind,
+    Midpoint,
+    MirrorParticles,
+    MirrorPoints,
+    Natural,
+    NoShifting,
+    WeaklyCompressible,
+    Xu,
+)
 
 ALONE: list[tuple[dict[str, Any], dict[str, Any]]] = [
     ({"shifting": Lind()}, {}),
@@ -36,6 +52,31 @@ def test_an_object_is_the_same_choice_as_flat_settings(objects: dict[str, Any], 
     assert (found.wall_model, found.shifting_method) == (expected.wall_model, expected.shifting_method)
 
 
+OF_THE_EXPLICIT: list[tuple[dict[str, Any], dict[str, Any]]] = [
+    ({"walls": MirrorParticles()}, {}),
+    ({"walls": MirrorParticles("mirroring")}, {"continuation": "mirror"}),
+    ({"walls": MirrorParticles("global"), "density": "summation"},
+     {"continuation": "global_quadratic", "density": "summation"}),
+    ({"walls": MirrorParticles(divergence="continued", on_wall=True)},
+     {"wall_divergence": "continued", "wall_particles": True}),
+    ({"walls": FixedParticles(continuation="linear")}, {"walls": "fixed", "continuation": "linear"}),
+    ({"walls": AdamiDummies()}, {"walls": "adami"}),
+    ({"integrator": KickDriftKick()}, {"integrator": "kick_drift_kick"}),
+    ({"integrator": Midpoint()}, {"integrator": "rk2"}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("objects", "flat"), OF_THE_EXPLICIT)
+def test_an_object_is_the_same_choice_in_the_explicit_scheme(objects: dict[str, Any], flat: dict[str, Any]) -> None:
+    found, expected = WeaklyCompressible(**objects), WeaklyCompressible(**flat)
+    assert found == expected
+    assert found.model_dump(mode="json") == expected.model_dump(mode="json")
+    assert str(found) == str(expected)
+    assert (found.wall_model, found.time_integrator) == (expected.wall_model, expected.time_integrator)
+    assert WeaklyCompressible(**dict(found)) == found
+    assert found.without_effect(walled=True) == []
+
+
 def test_the_object_has_the_flat_settings() -> None:
     chosen = Incompressible(walls="Adami-Dummies", continuation="mirror", shifting="XU", shifting_strength=2.0)
     assert (chosen.walls, chosen.shifting) == ("adami", "xu")
@@ -43,7 +84,13 @@ def test_the_object_has_the_flat_settings() -> None:
     assert chosen.shifting_method == Xu(2.0)
 
 
-@pytest.mark.parametrize("item", [Lind(0.25), Xu(), NoShifting(), SFDI("wall"), Natural(), Grid(3.0), Jacobi()])
+@pytest.mark.parametrize(
+    "item",
+    [
+        Lind(0.25), Xu(), NoShifting(), SFDI("wall"), Natural(), Grid(3.0), Jacobi(), MirrorParticles(on_wall=True),
+        FixedParticles("linear"), KickDriftKick(),
+    ],
+)  # fmt: skip
 def test_an_object_prints_as_python(item: Any) -> None:
     assert eval(repr(item), {name: getattr(sphear, name) for name in sphear.__all__}) == item
 
@@ -86,7 +133,44 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     ),
     "a class": (lambda: Incompressible(shifting=cast(Any, Lind)), "an object of the class ShiftingMethod, not <class"),
     "another kind": (lambda: Incompressible(walls=cast(Any, Lind())), "an object of the class WallModel, not Lind"),
-    "a near name": (lambda: Incompressible(walls="miror"), "walls is to be a wall model, .* did you mean mirror"),
+    "a near name": (
+        lambda: Incompressible(walls="miror"),
+        "walls is to be a wall model, .* did you mean mirror_points .* is one of mirror_points, adami, sfdi, natural$",
+    ),
+    "a near name of the explicit scheme": (
+        lambda: WeaklyCompressible(walls="fixd"),
+        "walls is to be a wall model, .* did you mean fixed.* is one of adami, mirror, fixed$",
+    ),
+    "a name of the other scheme": (
+        lambda: Incompressible(walls="fixed"),
+        "walls=fixed is no wall model of the incompressible scheme, which has mirror_points, adami, sfdi, natural",
+    ),
+    "no wall model at all": (
+        lambda: WeaklyCompressible(walls=cast(Any, Lind())),
+        "walls should be a name, such as 'adami', or an object of the class ExplicitWallModel, not Lind",
+    ),
+    "Adami's by a continuation": (
+        lambda: WeaklyCompressible(walls=AdamiDummies("linear")),
+        "finds velocities behind walls=adami in its own way: leave continuation and divergence out of Adami",
+    ),
+    "fits of fixed particles": (
+        lambda: FixedParticles("mirror"),
+        "^walls=fixed .* continuation=linear or quadratic, not mirror$",
+    ),
+    "fits of mirrors": (lambda: MirrorParticles("cubic"), "there is no continuation named 'cubic'"),
+    "divergence of mirrors": (
+        lambda: MirrorParticles(divergence=cast(Any, "sliding")),
+        "divergence of the wall model MirrorParticles should be one of slipping, continued, not 'sliding'",
+    ),
+    "no yes or no": (lambda: MirrorParticles(on_wall=cast(Any, 1)), "on_wall .* should be True or False, not 1"),
+    "both divergences": (
+        lambda: WeaklyCompressible(walls=MirrorParticles(divergence="slipping"), wall_divergence="continued"),
+        "contradict each other: leave wall_divergence to the object",
+    ),
+    "no integrator": (
+        lambda: WeaklyCompressible(integrator=cast(Any, Lind())),
+        "integrator should be a name, such as 'midpoint', or an object of the class Integrator, not Lind",
+    ),
 }
 
 

@@ -45,8 +45,8 @@ BESIDE: list[tuple[str, Any, dict[str, Any]]] = [
     ("diffusion_form", "antuono", {}),
     ("diffusion_form", "molteni", {}),
     ("walls", "mirror", {}),
-    ("walls", "fixed", {"wall_divergence": "continued"}),
-    ("walls", "adami", {"wall_divergence": "continued", "diffusion_form": "molteni"}),
+    ("walls", "fixed", SUMMED),
+    ("walls", "adami", SUMMED),
     ("continuation", "linear", {}),
     ("wall_divergence", "slipping", {}),
     ("wall_divergence", "continued", {}),
@@ -91,6 +91,18 @@ def test_settings_written_down_and_read_again_are_the_same(name: str, value: Any
     assert named.model_fields_set == settings.model_fields_set
 
 
+@pytest.mark.parametrize("walls", ["fixed", "adami"])
+@pytest.mark.parametrize(
+    "named", [{"density": "continuity"}, {"momentum": "products"}, {"density_diffusion": 0.05}], ids=str
+)
+def test_densities_beside_walls_of_particles_are_integrated_where_that_is_named(
+    walls: str, named: dict[str, Any]
+) -> None:
+    settings = FlowSettings.model_validate({"walls": walls, **named})
+    form = "molteni" if walls == "adami" else "antuono"
+    assert (settings.density, settings.diffusion_form, settings.wall_divergence) == ("continuity", form, "continued")
+
+
 def test_every_choice_is_tried_alone() -> None:
     tried = {(name, value) for name, value, _ in BESIDE if isinstance(value, str | None)}
     choices: dict[str, tuple[str, ...]] = {
@@ -113,8 +125,11 @@ def test_every_choice_is_tried_alone() -> None:
             {"density": "summation", "wall_divergence": "slipping"},
             "wall_divergence=slipping is about the continuity",
         ),
-        ({"walls": "fixed", "wall_divergence": "slipping"}, "and not for density=continuity with walls=fixed"),
-        ({"walls": "adami", "diffusion_form": "antuono"}, "antuono needs density gradients in the walls"),
+        ({"walls": "fixed", "wall_divergence": "slipping"}, "and not for density=summation with walls=fixed"),
+        (
+            {"walls": "adami", "density": "continuity", "diffusion_form": "antuono"},
+            "antuono needs density gradients in the walls",
+        ),
         ({"momentum": "squares", "density_diffusion": 0.1}, "density=summation has none"),
         ({"transport": "transport_velocity", "density": "continuity"}, "not for density=continuity"),
         ({"transport": "shifting", "equation_of_state": "ideal_gas"}, "take transport=none"),

@@ -137,7 +137,10 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "unbounded": ({"region": ~MIDDLE, "boundaries": {}}, "a region is bounded"),
     "scheme": ({"scheme": "implicit"}, "there is no scheme named 'implicit'"),
     "no scheme": ({"scheme": 3}, "a flow is computed by WeaklyCompressible or Incompressible, not by 3"),
-    "explicit solid": ({"region": SQUARE - MIDDLE, "scheme": "weakly_compressible"}, "knows the walls of boxes only"),
+    "mirrors around a solid": (
+        {"region": SQUARE - MIDDLE, "scheme": sphear.WeaklyCompressible(walls=sphear.MirrorParticles())},
+        "walls=mirror reflect particles at the sides of a box",
+    ),
     "observer": ({"observers": [print]}, "an observer is an Observer, such as History(every=0.1)"),
     "velocities": ({"velocity": np.ones(3)}, "velocities at the start are one for all or of the shape (400, 2)"),
     "nothing moves": ({"boundaries": {}}, "nothing moves this fluid at the start: say how fast it will be"),

@@ -24,6 +24,7 @@ _HOMES = {  # the module and the name of each registry
     "walls": ("sphear.boundaries.models", "WALL_MODELS"),
     "shifting": ("sphear.shifting", "SHIFTING"),
     "preconditioners": ("sphear.pressure", "PRECONDITIONERS"),
+    "integrators": ("sphear.schemes.integrators", "INTEGRATORS"),
 }
 KINDS = (*_HOMES, "studies", "cases")
 _SINGULAR = {
@@ -34,6 +35,7 @@ _SINGULAR = {
     "wall": "walls",
     "wall_model": "walls",
     "preconditioner": "preconditioners",
+    "integrator": "integrators",
     "study": "studies",
     "case": "cases",
     "viscous": "viscosity",

@@ -15,11 +15,11 @@ WIDTH = 79
 
 def of_settings(kind: type[BaseModel]) -> dict[str, dict[str, str]]:
     """Meaning and values of each setting of a class, by name."""
-    from sphear.schemes.registered_names import registries
+    from sphear.schemes.registered_names import REGISTRIES, choices
 
     listed = {
-        key: "any of `sphear list viscosity`" if registry.kind == "viscosity" else ", ".join(registry)
-        for key, registry in registries(kind).items()
+        key: "any of `sphear list viscosity`" if REGISTRIES[key].kind == "viscosity" else ", ".join(names)
+        for key, names in choices(kind).items()
     }
     return {name: {"meaning": one.meaning, "values": one.values} for name, one in explained(kind, listed).items()}
 

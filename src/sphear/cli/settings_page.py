@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.cavity_cylinder import CylinderSettings
+from sphear.cases.flow.cavity_cylinder import Cylinder
 from sphear.cases.flow.dam_break import DamBreakSettings
 from sphear.cases.patch_test import PatchTest
 from sphear.cli.explained import of_settings, short
@@ -34,7 +34,7 @@ _SECTIONS: tuple[tuple[str, type[BaseModel], type[BaseModel] | None], ...] = (
     ("Incompressible", Incompressible, Scheme),
     ("Of every case", RunSettings, None),
     ("Of every incompressible case", IncompressibleSettings, Incompressible),
-    ("Of `cavity-cylinder`", CylinderSettings, IncompressibleSettings),
+    ("Of `cavity-cylinder`", Cylinder, None),
     ("Of `dam-break`", DamBreakSettings, IncompressibleSettings),
     ("Of the patch test", PatchTest, None),
 )

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from types import FunctionType
 from typing import Any, Protocol, TypeVar, dataclass_transform, overload
 
-from sphear.boundaries.models import WALL_MODELS, WallModel
+from sphear.boundaries.models import WALL_MODELS, AnyWallModel
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState
 from sphear.extensions import protocol
@@ -24,7 +24,7 @@ KernelT = TypeVar("KernelT", bound=type[Kernel])
 CorrectionT = TypeVar("CorrectionT", bound="Correction | type[Correction]")
 EquationT = TypeVar("EquationT", bound=type[EquationOfState])
 ShiftingT = TypeVar("ShiftingT", bound="ShiftingMethod | type[ShiftingMethod]")
-WallModelT = TypeVar("WallModelT", bound="WallModel | type[WallModel]")
+WallModelT = TypeVar("WallModelT", bound="AnyWallModel | type[AnyWallModel]")
 PreconditionerT = TypeVar("PreconditionerT", bound="Preconditioner | type[Preconditioner]")
 
 
@@ -215,10 +215,11 @@ def shifting_method(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Shif
 
 @dataclass_transform(frozen_default=True)
 def wall_model(name: str, *, aliases: Sequence[str] = ()) -> Callable[[WallModelT], WallModelT]:
-    """Give a wall model a name, which incompressible flows take as the setting `walls` from then on.
+    """Give a wall model a name, which flows take as the setting `walls` from then on.
 
-    It decorates a class derived from `WallModel` or one of the package's models, or an object of one, that changes
-    methods of it: all have one. The settings `continuation` and `wall_divergence` are its fields.
+    It decorates a class derived from `WallModel`, of incompressible flows, from `ExplicitWallModel`, of explicit ones,
+    or from one of the package's models, or an object of one, that changes methods of it: all have one. The settings
+    `continuation`, `wall_divergence` and `wall_particles` are its fields, if it has them.
 
     Args, returns and raises: as `shifting_method`.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any, NamedTuple
 
-from sphear.boundaries.models import WallModel
+from sphear.boundaries.models import AnyWallModel
 from sphear.corrections import Correction
 from sphear.equations_of_state import EquationOfState
 from sphear.errors import SphearError, quoted
@@ -49,7 +49,7 @@ EQUATION = Protocol(
     ("pressure", "sound_speed", "density"), fields=("rho0", "c0"),
 )  # fmt: skip
 SHIFTING = Protocol("shifting_method", ShiftingMethod, "sphear.ShiftingMethod", ("drift",), instances=True)
-WALL_MODEL = Protocol("wall_model", WallModel, "sphear.WallModel", (), instances=True)
+WALL_MODEL = Protocol("wall_model", AnyWallModel, "sphear.WallModel or sphear.ExplicitWallModel", (), instances=True)
 PRECONDITIONER = Protocol("preconditioner", Preconditioner, "sphear.Preconditioner", ("build",), instances=True)
 
 

@@ -12,7 +12,6 @@ from sphear.schemes.formulas import Formulas
 from sphear.schemes.integrators import Integrated, Integrator
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
-from sphear.schemes.walls_of_regions import fixed_particles
 
 Array = np.ndarray[Any, Any]
 
@@ -52,10 +51,9 @@ def fields_at_start(
         energy_at_rest: of a unit of mass, where there is an ideal gas.
     """
     count, dimension = problem.positions.shape
-    fixed = settings.walls != "mirror" and problem.walled
-    # densities that are summed need all their neighbours too
-    depth = kernel.radius * (len(formulas.stages) + (settings.density == "summation"))
-    behind = fixed_particles(problem, settings, depth)
+    model = settings.wall_model
+    depth = model.depth(kernel.radius, len(formulas.stages), settings.density == "summation")
+    behind = model.particles(problem.box, problem.shape, problem.spacing, depth)
     total = count + len(behind.positions)
 
     def both(of_fluid: Array, of_walls: Array) -> Array:
@@ -75,7 +73,7 @@ def fields_at_start(
     for role in ("drift", "density_gradient"):
         if role in formulas.rates.roles:
             fields[role] = np.zeros((total, dimension))
-    if fixed:
+    if formulas.walls is not None:
         nothing = np.zeros((count, dimension))
         fields |= {
             "fluid": both(np.ones(count), np.zeros(total - count)),

@@ -144,6 +144,8 @@ class RunSettings(Choices):
         resolution: particles across the flow.
         until: when to stop, in the time unit of the case; None where the case says.
         max_steps: stop after so many steps.
+        solid: walls of your own: "none", or a shape in the fluid that is no fluid, as in "Circle((0.3, 0.5), 0.1)", see
+            `sphear.boundaries.shapes.written`. A case around one is compared with no reference.
 
     Raises:
         SphearError: a setting is unknown or wrong.
@@ -154,6 +156,7 @@ class RunSettings(Choices):
     resolution: int = Field(default=20, ge=1)
     until: float | None = Field(default=None, gt=0, allow_inf_nan=False)
     max_steps: int = Field(default=500_000, ge=1)
+    solid: str = "none"
 
     @field_validator("reynolds", mode="after")
     @classmethod
@@ -163,3 +166,12 @@ class RunSettings(Choices):
                 f"the setting reynolds should be from {LEAST_REYNOLDS:g} to {LARGEST_REYNOLDS:g}, not {reynolds:g}"
             )
         return reynolds
+
+    @field_validator("solid", mode="after")
+    @classmethod
+    def _is_a_shape(cls, solid: str) -> str:
+        if solid != "none":
+            from sphear.boundaries.shapes import written
+
+            written(solid)
+        return solid

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from sphear.boundaries.models import MirrorParticles
 from sphear.engine.stages import (
     Columns,
     Images,
@@ -13,37 +14,37 @@ from sphear.engine.stages import (
     Rows,
     Stage,
 )
-from sphear.interactions import FluidBeforeWall, VelocityBeforeWall
 from sphear.schemes.columns import without_standing_mass
 from sphear.schemes.formulas import Formulas
-from sphear.schemes.point_formulas import ContinuedVelocity, FluidAtWall, Pressure, Rates, SummedDensity
+from sphear.schemes.point_formulas import Pressure, Rates, SummedDensity
 
 
 def integrated_walls(formulas: Formulas) -> bool:
     """True if wall particles have a density of their own, integrated like the fluid's."""
-    return formulas.density is None and isinstance(formulas.wall, VelocityBeforeWall)
+    return formulas.density is None and formulas.walls is not None and formulas.walls.integrates_density
 
 
-def evaluation(formulas: Formulas, columns: Columns, continuation: str | None, wall_particles: bool) -> list[Stage]:
+def evaluation(formulas: Formulas, columns: Columns, mirrors: MirrorParticles | None) -> list[Stage]:
     """The stages of an evaluation.
 
     Args:
         formulas: of a step.
         columns: that they may use.
-        continuation: of the velocity through mirroring walls, a name; None without them.
-        wall_particles: whether particles stand on mirroring walls.
+        mirrors: the wall model, where walls mirror; else None.
     """
     supports = len(formulas.stages)  # first derivatives at images need their neighbours, which lie twice as deep
     last = Rows.PARTICLES if integrated_walls(formulas) else Rows.FLUID
     every = Rows.ENTRIES if supports > 1 else last
-    stages: list[Stage] = [Images(supports, wall_particles), Neighbours(of_images=supports > 1)]
-    if continuation is not None:
-        stages.append(ImageVelocities(continuation))
+    on_walls = mirrors is not None and mirrors.on_wall
+    stages: list[Stage] = [Images(supports, on_walls), Neighbours(of_images=supports > 1)]
+    if mirrors is not None:
+        stages.append(ImageVelocities(mirrors.continuation))
     if formulas.density is not None:
-        of_density = without_standing_mass(columns) if wall_particles else columns
+        of_density = without_standing_mass(columns) if on_walls else columns
         stages.append(PairSum("summed", formulas.density, Rows.PARTICLES, of_density))
         stages.append(PerParticle(SummedDensity(), Rows.PARTICLES))
-    of_pressure = Rows.FLUID if isinstance(formulas.wall, FluidBeforeWall) else Rows.PARTICLES
+    takes_pressure = formulas.walls is not None and formulas.walls.takes_pressure
+    of_pressure = Rows.FLUID if takes_pressure else Rows.PARTICLES
     stages.append(PerParticle(Pressure(formulas.equation_of_state), of_pressure))
     stages += _walls(formulas, columns)
     preparations = tuple(
@@ -65,10 +66,11 @@ def evaluation(formulas: Formulas, columns: Columns, continuation: str | None, w
 
 
 def _walls(formulas: Formulas, columns: Columns) -> list[Stage]:
-    """The stages that give wall particles their velocity from the fluid, and Adami's their pressure and density."""
-    if formulas.wall is None:
-        return []
-    before = PairSum("before_wall", formulas.wall, Rows.WALLS, columns)
-    if isinstance(formulas.wall, VelocityBeforeWall):
-        return [before, PerParticle(ContinuedVelocity(), Rows.WALLS, nearest=("before_wall",))]
-    return [before, PerParticle(FluidAtWall(formulas.wall_state, formulas.density is None), Rows.WALLS)]
+    """The stages that give wall particles what they take from the fluid before them."""
+    model, stages = formulas.walls, list[Stage]()
+    if formulas.before_wall is not None:
+        stages.append(PairSum("before_wall", formulas.before_wall, Rows.WALLS, columns))
+    if model is not None and formulas.at_wall is not None:
+        nearest = ("before_wall",) if model.from_first_layer else ()
+        stages.append(PerParticle(formulas.at_wall, Rows.WALLS, nearest=nearest))
+    return stages

@@ -21,25 +21,32 @@ class FlatSetting(NamedTuple):
 
     kind: the class of the objects.
     named: the objects that have names, by name.
-    fields: the flat settings by the fields of the objects.
+    fields: the flat settings by the fields of the objects; None in a field leaves its setting open.
+    without: the name of an attribute of objects that lists fields which say nothing here; "" for none.
     """
 
     kind: type
     named: Mapping[str, Any] | Registry[Any]
     fields: Mapping[str, str]
+    without: str = ""
+
+    def own(self, item: Any) -> set[str]:
+        """The fields of an object that say something here."""
+        return {field.name for field in fields(item)} - set(getattr(item, self.without, ()) if self.without else ())
 
     def said_by(self, item: Any) -> dict[str, Any]:
         """The values of the flat settings that an object says."""
-        own = {field.name for field in fields(item)}
-        return {flat: getattr(item, field) for field, flat in self.fields.items() if field in own}
+        own = self.own(item)
+        said = {flat: getattr(item, field) for field, flat in self.fields.items() if field in own}
+        return {flat: value for flat, value in said.items() if value is not None}
 
     def with_flat(self, value: Any, flat: Mapping[str, Any]) -> Any:
         """The object of a setting: itself, or the named one with the values of the flat settings."""
         if not isinstance(value, str):
             return value
         item = self.named[value]
-        own = {field.name for field in fields(item)}
-        return replace(item, **{field: flat[key] for field, key in self.fields.items() if field in own})
+        own = self.own(item)
+        return replace(item, **{field: flat[key] for field, key in self.fields.items() if field in own and key in flat})
 
     def name_of(self, item: Any) -> str | None:
         """The name by which, with the flat settings, an object can be written down; None where there is none."""

@@ -28,7 +28,6 @@ from sphear.schemes.base import (
 )
 from sphear.schemes.diagnostics import diagnostics
 from sphear.schemes.formulas import formulas
-from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
 from sphear.schemes.registered_names import named
@@ -39,6 +38,8 @@ from sphear.schemes.walls_of_regions import check_region, chosen_for, gone_throu
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
+
+OF_WALLS = ("walls", "wall_divergence", "density", "diffusion_form")  # which a region may change
 
 
 class Flow:
@@ -76,7 +77,7 @@ class Flow:
         self.time_step = chosen_time_step(self.limits, settings)
         chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
         self._check_room(len(chosen.stages))
-        integrator = INTEGRATORS[settings.integrator]
+        integrator = settings.time_integrator
         at_rest = energy_at_rest(problem, settings)
         self._fields = fields_at_start(settings, problem, chosen, self.kernel, integrator, at_rest)
         self._step = step_of(problem, settings, chosen, set(self._fields), self.sound_speed, self.time_step)
@@ -95,7 +96,7 @@ class Flow:
 
     def _compiled(self) -> Program:
         """The steps, for so many threads."""
-        box = self.problem.box.arrays(self.settings.walls == "mirror")
+        box = self.problem.box.arrays(self.settings.wall_model.mirrors)
         space = Space(*box, spacing=float(self.problem.spacing), support=float(self.kernel.radius))
         uniform = {"body_force": self._body_force}
         return Program(self._step.stages, self._fields, uniform, space, self.count, self.threads)
@@ -152,7 +153,7 @@ class Flow:
             width = problem.box.upper[axis] - problem.box.lower[axis]
             if reach > width:
                 raise SphearError(
-                    f"{fineness(problem, settings)} is too coarse for walls={settings.walls}: {supports} of"
+                    f"{fineness(problem, settings)} is too coarse for walls={text(settings.walls)}: {supports} of"
                     f" {reach:g} {so} beyond the width of {width:g} between the walls"
                 )
         check_kernel(problem, self.kernel, settings, connected=False)
@@ -171,7 +172,7 @@ class Flow:
         if self.threads > 1 and loop_threads() == 1:  # made before this process was forked
             self.threads = 1
             self._program = self._compiled()
-        if self.settings.integrator == "kick_drift_kick" and not self._fresh:
+        if self.settings.time_integrator.begins_with_rates and not self._fresh:
             self._run(1, *self._step.evaluation)
             self._fresh = True
         self._run(steps)
@@ -211,7 +212,9 @@ class Flow:
             "viscosity": text(settings.viscosity),
             "correction": text(settings.correction),
             "kernel": text(settings.kernel),
+            **{key: text(getattr(settings, key)) for key in OF_WALLS},
             "continuation": CONTINUATIONS.name(settings.continuation),
+            "density_diffusion": settings.density_diffusion,
             "momentum": settings.form,
             "h_over_dx": self.kernel.h / self.problem.spacing,
             "sound_speed": self.sound_speed,

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from sphear.boundaries.models import ExplicitWallModel
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
+from sphear.engine.stages import PointFormula
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState, IdealGas, Linear
-from sphear.errors import SphearError
 from sphear.interactions import (
     Advection,
     Continuity,
     DensityAdvection,
     DensityDiffusion,
     DensityGradient,
-    FluidBeforeWall,
     InternalEnergy,
     Part,
     PressureForce,
@@ -24,7 +24,6 @@ from sphear.interactions import (
     SummationDensity,
     TransportStress,
     TransportVelocity,
-    VelocityBeforeWall,
     ViscousForce,
 )
 from sphear.kernels import Kernel
@@ -32,8 +31,6 @@ from sphear.operators.arguments import read_correction
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
 from sphear.viscosity.base import ViscousTerm
-
-FIT_DEGREES = {"linear": 1, "quadratic": 2}
 
 
 @dataclass(frozen=True)
@@ -43,8 +40,9 @@ class Formulas:
     Attributes:
         density: gives the density; None where it is integrated.
         equation_of_state: gives the pressure.
-        wall_state: gives fixed wall particles the density that belongs to their pressure.
-        wall: what wall particles take from the fluid before them; None without fixed walls.
+        walls: the wall model, where particles stand behind walls; else None.
+        before_wall: sums what they take from the fluid before them; None takes nothing.
+        at_wall: makes fields of theirs of it.
         preparations: what the stages know of a particle's neighbourhood, by the name that they know it by.
         stages: each knows the one before as `before`; the last gives the rates.
         rates: the last of the stages.
@@ -52,8 +50,9 @@ class Formulas:
 
     density: Interaction | None
     equation_of_state: EquationOfState
-    wall_state: EquationOfState
-    wall: VelocityBeforeWall | FluidBeforeWall | None
+    walls: ExplicitWallModel | None
+    before_wall: Interaction | None
+    at_wall: PointFormula | None
     preparations: tuple[tuple[str, Any], ...]
     stages: tuple[Interaction, ...]
     rates: Rates
@@ -88,11 +87,15 @@ def formulas(
     viscous = ViscousForce(term, kernel, of_term)
     rates = Rates((viscous, *_parts(settings, problem, kernel, correction, prepared, sound_speed, time_step)))
     equation = _equation(settings, problem, sound_speed)
+    walls = _walls(settings, problem)
+    state = equation if settings.gas else Linear(problem.density, sound_speed)  # of which the density follows
+    summed = settings.density == "summation"
     return Formulas(
-        density=SummationDensity(kernel) if settings.density == "summation" else None,
+        density=SummationDensity(kernel) if summed else None,
         equation_of_state=equation,
-        wall_state=equation if settings.gas else Linear(problem.density, sound_speed),
-        wall=_wall(settings, problem, kernel),
+        walls=walls,
+        before_wall=None if walls is None else walls.before_wall(kernel),
+        at_wall=None if walls is None else walls.at_wall(state, with_density=not summed),
         preparations=tuple((name, found) for name, found in preparations if found is not None),
         stages=(*before, rates),
         rates=rates,
@@ -153,32 +156,9 @@ def _parts(
     return parts
 
 
-def _wall(
-    settings: WeaklyCompressible, problem: Problem, kernel: Kernel
-) -> VelocityBeforeWall | FluidBeforeWall | None:
+def _walls(settings: WeaklyCompressible, problem: Problem) -> ExplicitWallModel | None:
+    """The wall model whose particles stand behind walls; None without walls, or where they mirror."""
+    model = settings.wall_model
     if problem.box.free_slip:
-        _check_free_slip(settings)
-    if settings.walls == "mirror" or not problem.walled:
-        return None
-    if settings.walls == "adami":
-        return FluidBeforeWall(kernel)
-    if settings.continuation not in FIT_DEGREES:
-        raise SphearError(
-            f"walls=fixed continue the fluid's velocity by continuation=linear or quadratic, not"
-            f" {settings.continuation}"
-        )
-    return VelocityBeforeWall(kernel, FIT_DEGREES[settings.continuation])
-
-
-def _check_free_slip(settings: WeaklyCompressible) -> None:
-    """Refuse wall models that cannot let fluid slip."""
-    for name, other, instead in (
-        ("walls", settings.walls != "mirror", "mirror"),
-        ("continuation", settings.continuation in ("global_quadratic", "global"), "quadratic"),
-        ("wall_particles", settings.wall_particles, False),
-    ):
-        if other:
-            raise SphearError(
-                f"fluid slips along walls of walls=mirror, each by itself: {name}={getattr(settings, name)} cannot let"
-                f" it, take {name}={instead}"
-            )
+        model.check_free_slip()
+    return None if model.mirrors or not problem.walled else model

@@ -8,15 +8,16 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, InstanceOf, PlainSerializer, PlainValidator, ValidationInfo
 
-from sphear.boundaries.models import WALL_MODELS, WallModel
+from sphear.boundaries.models import WALL_MODELS, AnyWallModel, ExplicitWallModel, WallModel
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.engine.structure import made_of
 from sphear.equations_of_state import EQUATIONS_OF_STATE, Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.kernels import KERNELS, Kernel
-from sphear.names import Registry
+from sphear.names import Registry, unknown
 from sphear.operators import arguments
 from sphear.pressure import PRECONDITIONERS, Preconditioner
+from sphear.schemes.integrators import INTEGRATORS, Integrator
 from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
@@ -74,13 +75,53 @@ def _by_name(registry: Registry[Any], kind: type) -> Any:
     return PlainValidator(reader)
 
 
+def _walls(kind: type[AnyWallModel], scheme: str) -> Any:
+    """Take the wall models of a scheme, by their names too; one of another scheme is refused by both names."""
+
+    def reader(value: Any, info: ValidationInfo) -> Any:
+        if not isinstance(value, str | AnyWallModel):
+            raise SphearError(
+                f"the setting walls should be a name, such as {_of(kind)[0]!r}, or an object of the class"
+                f" {kind.__name__}, not {text(value)}"
+            )
+        known = _name_of_walls(value, kind) if isinstance(value, str) else None
+        item = value if known is None else WALL_MODELS[known]
+        if not isinstance(item, kind):
+            raise SphearError(
+                f"walls={known or text(item)} is no wall model of the {scheme} scheme, which has {', '.join(_of(kind))}"
+            )
+        return known or next((name for name in _of(kind) if WALL_MODELS[name] == item), item)
+
+    return PlainValidator(reader)
+
+
+def _of(kind: type[AnyWallModel]) -> list[str]:
+    """The names of the wall models of a kind."""
+    return [name for name in WALL_MODELS if isinstance(WALL_MODELS[name], kind)]
+
+
+def _name_of_walls(given: str, kind: type[AnyWallModel]) -> str:
+    """The registered name of a wall model.
+
+    Raises:
+        SphearError: there is none, with the nearest of the kind.
+    """
+    try:
+        return WALL_MODELS.name(given)
+    except SphearError:
+        aliases = [alias for name in _of(kind) for alias in WALL_MODELS.aliases(name)]
+        raise unknown(WALL_MODELS.kind, given, _of(kind), aliases, "the setting walls") from None
+
+
 WRITTEN = PlainSerializer(text, return_type=str, when_used="json")
 
 Term = Annotated[str | ViscousTerm, _chosen(VISCOSITY, ViscousTerm, arguments.read_viscosity), WRITTEN]
 CorrectionSetting = Annotated[str | Correction, _chosen(CORRECTIONS, Correction), WRITTEN]
 KernelSetting = Annotated[str | Kernel, _chosen(KERNELS, Kernel), WRITTEN]
 ShiftingSetting = Annotated[str | ShiftingMethod, _by_name(SHIFTING, ShiftingMethod), WRITTEN]
-WallModelSetting = Annotated[str | WallModel, _by_name(WALL_MODELS, WallModel), WRITTEN]
+WallModelSetting = Annotated[str | WallModel, _walls(WallModel, "incompressible"), WRITTEN]
+ExplicitWallModelSetting = Annotated[str | ExplicitWallModel, _walls(ExplicitWallModel, "explicit"), WRITTEN]
+IntegratorSetting = Annotated[str | Integrator, _by_name(INTEGRATORS, Integrator), WRITTEN]
 PreconditionerSetting = Annotated[str | Preconditioner, _by_name(PRECONDITIONERS, Preconditioner), WRITTEN]
 
 

@@ -1,11 +1,11 @@
-"""The formulas of a step for each particle by itself: pressure, fields of walls from the fluid, rates and moves."""
+"""The formulas of a step for each particle by itself: pressure, rates and moves."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
 
-from sphear.algebra import add, dot, scale, subtract, where_less
+from sphear.algebra import add, scale, subtract
 from sphear.equations_of_state import EquationOfState
 
 
@@ -27,50 +27,6 @@ class Pressure:
     def at(self, own: Any) -> dict[str, Any]:
         """From the particle's own density and energy."""
         return {"pressure": self.equation.pressure(own.density, getattr(own, "energy", 0.0))}
-
-
-@dataclass(frozen=True)
-class ContinuedVelocity:
-    """The velocity of a fixed wall particle, u_wall - a y + b y^2 along the wall, that of the wall across it.
-
-    a and b are the first layer's, which is the nearest to the fluid; y is the depth of the particle. Corners, which
-    have no normal and no depth, have the velocity of the wall.
-    """
-
-    def at(self, own: Any) -> dict[str, Any]:
-        """From the fit before the wall."""
-        dimension = len(own.normal)
-        slope, bend = own.before_wall[:dimension], own.before_wall[dimension:]
-        change = subtract(scale(own.depth * own.depth, bend), scale(own.depth, slope))
-        along = subtract(change, scale(dot(change, own.normal), own.normal))
-        return {
-            "velocity": tuple(
-                u + where_less(0.0, own.depth, more, 0.0) for u, more in zip(own.wall_velocity, along, strict=True)
-            )
-        }
-
-
-@dataclass(frozen=True)
-class FluidAtWall:
-    """Velocity, pressure and density of a wall particle, of what the fluid before it gave (Adami et al. 2012).
-
-    Attributes:
-        equation: of state, which gives the density; a gas out of reach of the fluid keeps its own.
-        with_density: whether there is one to give: summed densities are those of the particles' places.
-    """
-
-    equation: EquationOfState
-    with_density: bool
-
-    def at(self, own: Any) -> dict[str, Any]:
-        """From the sums before the wall."""
-        *velocity, pressure = own.before_wall
-        result: dict[str, Any] = {"velocity": tuple(velocity), "pressure": pressure}
-        if self.with_density:
-            gas = self.equation.uses_energy
-            density = self.equation.density(pressure, own.energy if gas else 0.0)
-            result["density"] = where_less(0.0, pressure, density, own.density) if gas else density
-        return result
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ class Problem:
         kinematic_viscosity: of the fluid.
         speed: the largest speed that is expected.
         length: the length that the Reynolds number is made with.
-        shape: the region of fluid, where its walls are not those of the box alone; for incompressible flow.
+        shape: the region of fluid, where its walls are not those of the box alone.
         free_surface: whether the fluid ends at its own surface too; for incompressible flow.
         force: on a unit of mass, beside the body force, (N, d) at places (N, d) and a time; for incompressible flow. No
             time-step limit knows of it.

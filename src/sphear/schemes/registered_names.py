@@ -13,6 +13,7 @@ from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.names import Registry
 from sphear.pressure import PRECONDITIONERS
+from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.objects import plain
 from sphear.shifting import SHIFTING
 from sphear.viscosity import VISCOSITY
@@ -32,6 +33,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "preconditioner": PRECONDITIONERS,
     "walls": WALL_MODELS,
     "shifting": SHIFTING,
+    "integrator": INTEGRATORS,
 }
 
 
@@ -50,6 +52,15 @@ def named(settings: Chosen) -> Chosen:
 def registries(kind: type[BaseModel]) -> dict[str, Registry[Any]]:
     """The registries of the settings of a class that are registered names; the others have a few of their own."""
     return {key: REGISTRIES[key] for key, field in kind.model_fields.items() if key in REGISTRIES and _open(field)}
+
+
+def choices(kind: type[BaseModel]) -> dict[str, list[str]]:
+    """The names that the settings of a class take, of those that are registered names."""
+    flat = getattr(kind, "flat", {})
+    return {
+        key: [name for name in registry if key not in flat or isinstance(registry[name], flat[key].kind)]
+        for key, registry in registries(kind).items()
+    }
 
 
 def _open(field: FieldInfo) -> bool:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 
-from sphear.boundaries import CONTINUATIONS
+from sphear.boundaries.models import MirrorParticles
 from sphear.schemes.arrays import integrated
 from sphear.schemes.columns import columns
 from sphear.schemes.evaluation import evaluation
 from sphear.schemes.formulas import Formulas
-from sphear.schemes.integrators import INTEGRATORS, Step
+from sphear.schemes.integrators import Step
 from sphear.schemes.problem import Problem
 from sphear.schemes.settings import WeaklyCompressible
 
@@ -32,12 +32,8 @@ def step_of(
         sound_speed: at rest, above which no particle of a fluid that is no gas may be.
         time_step: of the step.
     """
-    mirrored = settings.walls == "mirror" and problem.walled
-    rates = evaluation(
-        formulas,
-        columns(fields),
-        CONTINUATIONS.name(settings.continuation) if mirrored else None,
-        settings.wall_particles,
-    )
+    mirrors = settings.wall_model if problem.walled else None
+    mirrors = mirrors if isinstance(mirrors, MirrorParticles) else None
+    rates = evaluation(formulas, columns(fields), mirrors)
     fastest = math.inf if settings.gas else sound_speed
-    return INTEGRATORS[settings.integrator].step(rates, time_step, integrated(formulas), fastest)
+    return settings.time_integrator.step(rates, time_step, integrated(formulas), fastest)

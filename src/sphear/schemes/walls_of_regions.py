@@ -1,13 +1,11 @@
-"""The walls of the explicit scheme around fluid in a region of any form: particles that stand behind them."""
+"""The walls of the explicit scheme around fluid in a region of any form."""
 
 from __future__ import annotations
 
-import math
 from typing import Any, TypeVar
 
 import numpy as np
 
-from sphear.boundaries import WallParticles, particles_behind, wall_particles
 from sphear.boundaries.shapes import check_room, repeated
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
@@ -27,7 +25,7 @@ def chosen_for(problem: Problem, settings: Chosen) -> Chosen:
     Raises:
         SphearError: mirrors were chosen for walls that are no sides of a box.
     """
-    if problem.shape is None or settings.walls != "mirror":
+    if problem.shape is None or not settings.wall_model.mirrors:
         return settings
     if "walls" in settings.model_fields_set:
         raise SphearError(
@@ -36,20 +34,6 @@ def chosen_for(problem: Problem, settings: Chosen) -> Chosen:
         )
     named = {name: getattr(settings, name) for name in settings.model_fields_set}
     return type(settings)(**named, walls="fixed")
-
-
-def fixed_particles(problem: Problem, settings: WeaklyCompressible, depth: float) -> WallParticles:
-    """The particles behind all walls; none where walls mirror.
-
-    Args:
-        problem: the flow.
-        settings: chosen.
-        depth: up to which they stand behind walls.
-    """
-    layers = math.ceil(depth / problem.spacing)
-    if problem.shape is None or settings.walls == "mirror":
-        return wall_particles(problem.box, problem.spacing, layers if settings.walls != "mirror" else 0)
-    return particles_behind(problem.shape, problem.spacing, layers * problem.spacing, problem.window)
 
 
 def check_region(problem: Problem, kernel: Kernel, supports: int) -> None:

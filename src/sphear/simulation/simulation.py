@@ -52,7 +52,7 @@ class Simulation(Run):
         fluid: its density and viscosity.
         boundaries: conditions by the names of walls ("left", "right", "lower", "upper", "circle", or the name that a
             shape was given), and `Periodic()` by "x" or "y"; walls that are not named are at rest, `NoSlip()`.
-        scheme: `Incompressible(...)`, also if none is given, or `WeaklyCompressible(...)`, which knows rectangles only;
+        scheme: `Incompressible(...)`, also if none is given, or `WeaklyCompressible(...)`, which knows no surfaces;
             "incompressible" and "weakly_compressible" have the defaults.
         observers: that look at the simulation at their intervals.
         velocity: at the start: (d,) for all particles, (N, d), a function of places (N, d), or None at rest.

@@ -16,11 +16,9 @@ from sphear.boundaries.shapes import Circle, Polygon, Rectangle, Shape, fluid_la
 from sphear.cases.flow.initial import particles_in
 from sphear.errors import SphearError
 from sphear.neighbours import Domain
-from sphear.schemes.base import flow_in_time
 from sphear.schemes.incompressible.flow import IncompressibleFlow
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
 from tests.particles import jittered
 from tests.schemes.incompressible.flows import case, in_a_tank
 
@@ -118,13 +116,6 @@ def test_particles_that_start_behind_a_wall() -> None:
 def test_a_start_that_is_no_number(what: float) -> None:
     at = np.array([[0.5, 0.5], [0.4, what]])
     refused("the initial position of particle 1 is not a number", at=at)
-
-
-def test_the_explicit_scheme_knows_no_shapes() -> None:
-    drum = Circle((0.5, 0.5), 0.4)
-    flow = in_a_tank(20, shape=drum, at=fluid_lattice(drum, 1 / 20, UNIT))
-    with pytest.raises(SphearError, match="walls of boxes only: take scheme=incompressible"):
-        flow_in_time(flow.problem, FlowSettings())
 
 
 def test_walls_in_three_dimensions() -> None:

@@ -1,4 +1,4 @@
-"""The methods that all wall models have; as they are here, fields are those at the dummies' mirror points."""
+"""The methods of wall models of the incompressible scheme; as they are here, fields are those at mirror points."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, get_args
 
 import numpy as np
 
+from sphear.boundaries.models.any_model import AnyWallModel
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
 
@@ -39,8 +40,8 @@ class Sampling(NamedTuple):
 
 
 @dataclass(frozen=True)
-class WallModel:
-    """Dummy particles behind walls, and what they have of the fluid's fields.
+class WallModel(AnyWallModel):
+    """Dummy particles behind walls of incompressible flow, and what they have of the fluid's fields.
 
     Args:
         continuation: how the velocity goes on behind a wall in the viscous term: "mirror", "linear", "quadratic", or
@@ -66,10 +67,6 @@ class WallModel:
     continuation: Continuation = "quadratic"
     divergence: Divergence = "slipping"
 
-    name: ClassVar[str] = "unnamed"
-    aliases: ClassVar[tuple[str, ...]] = ()
-    formula: ClassVar[str] = "not stated"
-    source: ClassVar[str] = "not stated"
     surface_fault: ClassVar[str] = ""
     symmetric: ClassVar[bool] = False
 

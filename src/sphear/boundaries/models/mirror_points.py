@@ -20,6 +20,6 @@ class MirrorPoints(WallModel):
     """
 
     name = "mirror_points"
-    aliases = ("mirror", "marrone")
+    aliases = ("marrone",)
     formula = "p_w = p(mirror point) - 2 depth n . grad p, n . grad p = rho n . a"
     source = "Marrone et al. 2011, CMAME 200:1526"

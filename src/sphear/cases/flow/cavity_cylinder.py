@@ -17,14 +17,16 @@ from sphear.cases.flow.cavity import CAVITY, LID_SPEED, SIDE, Cavity
 from sphear.cases.flow.initial import particles_in
 from sphear.errors import SphearError
 from sphear.references import cavity as references
+from sphear.schemes.common import Choices
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
+from sphear.schemes.settings import FlowSettings
 
 REFERENCE_REYNOLDS = 1000.0
 
 
-class CylinderSettings(IncompressibleSettings):
-    """The settings of an incompressible flow, and where the cylinder is.
+class Cylinder(Choices):
+    """The cylinder in the cavity.
 
     Attributes:
         diameter: of the cylinder, over the cavity's side.
@@ -39,16 +41,24 @@ class CylinderSettings(IncompressibleSettings):
     spin: float = Field(default=0.0, allow_inf_nan=False)
 
 
+class CylinderSettings(Cylinder, IncompressibleSettings):
+    """The settings of an incompressible flow around the cylinder."""
+
+
+class ExplicitCylinderSettings(Cylinder, FlowSettings):
+    """The settings of an explicit flow around the cylinder."""
+
+
 def cylinder(settings: Settings) -> Circle:
     """The cylinder."""
-    assert isinstance(settings, CylinderSettings)
+    assert isinstance(settings, Cylinder)
     return Circle((settings.centre_x, settings.centre_y), 0.5 * settings.diameter, spin=settings.spin)
 
 
 def flows(settings: Settings) -> list[references.CavityFlow]:
     """The computed flow of the paper's cylinder, where it is that one; its profiles are of t = 40."""
-    usual = CylinderSettings()
-    same = isinstance(settings, CylinderSettings) and all(
+    usual = Cylinder()
+    same = isinstance(settings, Cylinder) and all(
         getattr(settings, name) == getattr(usual, name) for name in ("diameter", "centre_x", "centre_y", "spin")
     )
     return [references.cavity_cylinder()] if same and settings.reynolds == REFERENCE_REYNOLDS else []
@@ -64,13 +74,17 @@ class CavityCylinder(Cavity):
 
     name = "cavity-cylinder"
     defaults: ClassVar[Mapping[str, Mapping[str, Any]]] = {
-        "incompressible": {"reynolds": 1000.0, "resolution": 100, "until": 40.0}
+        "incompressible": {"reynolds": 1000.0, "resolution": 100, "until": 40.0},
+        "explicit": {"reynolds": 1000.0, "resolution": 100, "until": 40.0},
     }
-    kinds: ClassVar[Mapping[str, type[Settings]]] = {"incompressible": CylinderSettings}
+    kinds: ClassVar[Mapping[str, type[Settings]]] = {
+        "incompressible": CylinderSettings,
+        "explicit": ExplicitCylinderSettings,
+    }
 
     def problem(self, settings: Settings) -> Problem:
         """Fluid at rest in a square around a cylinder; the upper wall slides."""
-        assert isinstance(settings, CylinderSettings)
+        assert isinstance(settings, Cylinder)
         nearest = min(min(x, SIDE - x) for x in (settings.centre_x, settings.centre_y))
         if nearest < 0.5 * settings.diameter:
             raise SphearError(

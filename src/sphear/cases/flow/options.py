@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TypedDict
 
-from sphear.boundaries.models import WallModel
+from sphear.boundaries.models import ExplicitWallModel, WallModel
 from sphear.corrections import Correction
 from sphear.equations_of_state import EquationOfState
 from sphear.kernels import Kernel
 from sphear.pressure import Preconditioner
+from sphear.schemes.integrators import Integrator
 from sphear.shifting import Lind, ShiftingMethod
 from sphear.viscosity import ViscousTerm
 
@@ -32,7 +33,9 @@ class FlowOptions(TypedDict, total=False):
     force: bool
     threads: int | None
     continuation: str
+    walls: str | WallModel | ExplicitWallModel
     wall_divergence: str
+    solid: str
     shifting_strength: float
 
     # of the explicit scheme
@@ -42,9 +45,8 @@ class FlowOptions(TypedDict, total=False):
     pressure_reduction: str
     density_diffusion: float
     diffusion_form: str
-    walls: str | WallModel
     wall_particles: bool
-    integrator: str
+    integrator: str | Integrator
     transport: str | Lind
     background_pressure: float
     sound_speed: float | None
@@ -58,7 +60,6 @@ class FlowOptions(TypedDict, total=False):
     alpha: float | None
     projection: str
     shifting: str | ShiftingMethod
-    solid: str
     viscous_step: str
     preconditioner: str | Preconditioner
     tolerance: float

@@ -8,7 +8,6 @@ from sphear.boundaries.shapes import Shape, fastest, fitted, fluid_lattice, repe
 from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
 from sphear.errors import SphearError
 from sphear.schemes.incompressible.region import fluid_of
-from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
 from sphear.simulation.whole_flow import greatest_speed, kinetic_energy
 
@@ -53,9 +52,7 @@ class AroundSolid(FlowCase):
 
 def opened(case: FlowCase, settings: Settings) -> FlowCase:
     """The case around the solid of its settings; without one, the case as it is."""
-    if not isinstance(settings, IncompressibleSettings) or settings.solid == "none":
-        return case
-    return AroundSolid(case, written(settings.solid))
+    return case if settings.solid == "none" else AroundSolid(case, written(settings.solid))
 
 
 def around(problem: Problem, solid: Shape) -> Problem:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, ClassVar, Literal, Self
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from sphear.boundaries.models import WALL_MODELS, WallModel
 from sphear.boundaries.models.base import Continuation, Divergence
@@ -159,23 +159,11 @@ class IncompressibleSettings(RunSettings, Incompressible):
 
     Attributes, beside those of `RunSettings` and `Incompressible`:
         scheme: "incompressible".
-        solid: walls of your own: "none", or a shape in the fluid that is no fluid, as in "Circle((0.3, 0.5), 0.1)", see
-            `sphear.boundaries.shapes.written`. A case around one is compared with no reference.
     """
 
     scheme: Literal["incompressible"] = "incompressible"
     reynolds: float = Field(default=100.0, gt=0, allow_inf_nan=False)
     resolution: int = Field(default=50, ge=1)
-    solid: str = "none"
-
-    @field_validator("solid", mode="after")
-    @classmethod
-    def _is_a_shape(cls, solid: str) -> str:
-        if solid != "none":
-            from sphear.boundaries.shapes import written
-
-            written(solid)
-        return solid
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
         return Incompressible._idle(self, walled) | {"seed": (f"initial={self.initial}", self.initial != "relaxed")}
