@@ -107,7 +107,7 @@ def test_an_interrupted_run_is_gone_on_with(sphear: Run, monkeypatch: pytest.Mon
 
 WRONG: dict[str, tuple[tuple[str, ...], str]] = {
     "scheme": (("cavity", "--scheme", "implicit"), "there is no scheme named 'implicit': did you mean"),
-    "explicit": (("cavity-cylinder", "--scheme", "explicit"), "cavity-cylinder is computed by the scheme incompress"),
+    "explicit": (("dam-break", "--scheme", "explicit"), "dam-break is computed by the scheme incompress"),
     "setting of the other scheme": (
         ("cavity", "--scheme", "incompressible", "--set", "sound_speed=10"),
         "the setting sound_speed is one of scheme=explicit, and this is scheme=incompressible",
