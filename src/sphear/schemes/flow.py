@@ -53,10 +53,8 @@ class Flow:
         problem: without the particles at the start.
         time: reached.
         steps: made.
-        positions, velocities: (N, d), of the fluid now.
-        density, pressure, energy: (N,); of the last evaluation, which of the midpoint rule is at the middle of a step
-            where they are not integrated.
-        drift: (N, d), of the particles against the fluid.
+        density, pressure: of the last evaluation, which of the midpoint rule is at the middle of a step where they are not
+            integrated.
         limits: the time steps that the CFL, viscous and body-force conditions allow.
 
     Raises:

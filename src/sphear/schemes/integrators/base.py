@@ -10,7 +10,7 @@ from sphear.engine.stages import CheckFinite, CheckPositive, Stage
 
 
 class Integrated(NamedTuple):
-    """What is integrated in time.
+    """The variables that are integrated in time.
 
     scalars: of density and energy, beside place and velocity.
     of_walls: those of them that wall particles have too.

@@ -83,11 +83,18 @@ class Program:
             compiler.add(stage)
         self._calls = compiler.calls
         self._first.append(len(self._calls))
-        self._addresses = np.array([address_of(call.code) for call in self._calls])
-        self._tables = self._addressed()
+        self._addresses = np.empty(0, np.int64)  # of the compiled stages; none before they are
+
+    def compile(self) -> None:
+        """Compile what is not compiled yet; the first run does, too."""
+        if not len(self._addresses):
+            self._addresses = np.array([address_of(call.code) for call in self._calls])
+            self._tables = self._addressed()
+            advance(self._addresses, self._tables, self._memory.sizes, 0, 0, 0, 0)
 
     def run(self, steps: int, begin: int = 0, end: int | None = None) -> Ended:
         """Run the stages begin ... end - 1, all by default, for each of so many steps."""
+        self.compile()
         first, last = self._first[begin], self._first[-1 if end is None else end]
         at, made, numbers = first, 0, self._memory.sizes
         while made < steps:
