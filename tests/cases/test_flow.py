@@ -95,7 +95,10 @@ def test_as_dict_has_case_resolved_settings_metrics_and_performance() -> None:
     assert set(FlowSettings.model_fields) <= set(settings)
     assert settings["momentum"] == "squares"  # resolved: that of the summed density
     metrics = result["metrics"]
-    assert set(metrics) == {"time", "steps", "rms_error", "kinetic_energy", "end", "failure_time"}
+    assert set(metrics) == {
+        "time", "steps", "rms_error", "kinetic_energy", "mach", "density_deviation", "smallest_distance", "end",
+        "failure_time",
+    }  # fmt: skip
     assert (metrics["end"], metrics["failure_time"]) == ("time", None)
     performance = result["performance"]
     assert performance["particles"] == 400

@@ -90,7 +90,8 @@ def test_the_cavity_has_its_numbers_and_profiles(sphear: Run) -> None:
     result = sphear("run", "cavity", "--preset", "basa2009", "--resolution", "12", "--until", "0.05", "--json").json()
     assert list(result) == ["case", "settings", "metrics", "profiles", "warnings", "versions", "performance"]
     assert set(result["metrics"]) == {
-        "time", "steps", "kinetic_energy", "kinetic_energy_error", "u_min", "reference_missing", "end", "failure_time"
+        "time", "steps", "kinetic_energy", "kinetic_energy_error", "u_min", "reference_missing", "mach",
+        "density_deviation", "smallest_distance", "end", "failure_time",
     }  # fmt: skip
     assert result["metrics"]["end"] == "time"
     assert result["metrics"]["reference_missing"].startswith("no profiles are known at t = 0.05")

@@ -53,8 +53,7 @@ class Flow:
         problem: without the particles at the start.
         time: reached.
         steps: made.
-        density, pressure: of the last evaluation, which of the midpoint rule is at the middle of a step where they are not
-            integrated.
+        density, pressure: of the last evaluation, in midpoint steps half a step back where they are not integrated.
         limits: the time steps that the CFL, viscous and body-force conditions allow.
 
     Raises:
@@ -144,15 +143,13 @@ class Flow:
     def _check_room(self, stages: int) -> None:
         problem, settings = self.problem, self.settings
         reach = stages * self.kernel.radius
-        supports, so = (
-            ("the kernel's support", "reaches") if stages == 1 else (f"{stages} supports of the kernel", "reach")
-        )
+        supports = "the kernel's support" if stages == 1 else f"{stages} supports of the kernel"
         for axis in () if problem.shape is not None else problem.box.wall_axes:
             width = problem.box.upper[axis] - problem.box.lower[axis]
             if reach > width:
                 raise SphearError(
                     f"{fineness(problem, settings)} is too coarse for walls={text(settings.walls)}: {supports} of"
-                    f" {reach:g} {so} beyond the width of {width:g} between the walls"
+                    f" {reach:g} would reach beyond the width of {width:g} between the walls"
                 )
         check_kernel(problem, self.kernel, settings, connected=False)
         check_region(problem, self.kernel, stages)
