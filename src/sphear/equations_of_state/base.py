@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from sphear.algebra import Scalar
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
+from sphear.positive import is_positive
 
 
 @dataclass(frozen=True)
@@ -72,5 +73,5 @@ class Barotropic(EquationOfState):
 
     def __post_init__(self) -> None:
         for what, value in (("reference density rho0", self.rho0), ("speed of sound c0", self.c0)):
-            if not 0 < value < float("inf"):
-                raise SphearError(f"the {what} must be positive, not {value}")
+            if not is_positive(value):
+                raise SphearError(f"the {what} must be positive, not {quoted(value)}")

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from sphear.algebra import Scalar, sqrt
 from sphear.equations_of_state.base import EquationOfState
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
+from sphear.positive import as_number
 
 
 @dataclass(frozen=True)
@@ -37,8 +38,8 @@ class IdealGas(EquationOfState):
     uses_energy = True
 
     def __post_init__(self) -> None:
-        if not 1 < self.gamma < float("inf"):
-            raise SphearError(f"the ratio of heat capacities gamma must be a number above 1, not {self.gamma}")
+        if not as_number(self.gamma) > 1:
+            raise SphearError(f"the ratio of heat capacities gamma must be a number above 1, not {quoted(self.gamma)}")
 
     def pressure(self, density: Scalar, energy: Scalar = None) -> Scalar:
         """(gamma - 1) rho e."""

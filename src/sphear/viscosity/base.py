@@ -8,9 +8,10 @@ from typing import Any, ClassVar
 from sphear.algebra import Scalar, Vector, scale, subtract
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.interactions import Laplacian, ViscousAcceleration
 from sphear.kernels import Kernel
+from sphear.positive import as_number
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,8 +45,8 @@ class ViscousTerm:
 
     def __post_init__(self) -> None:
         eta = getattr(self, "eta", None)
-        if eta is not None and not 0 <= eta < float("inf"):
-            raise SphearError(f"eta of viscosity {self.name!r} must be zero or positive, not {eta}")
+        if eta is not None and not as_number(eta) >= 0:
+            raise SphearError(f"eta of viscosity {self.name!r} must be zero or positive, not {quoted(eta)}")
 
     def __repr__(self) -> str:
         """The card of the term: its formula, its source and what was measured of it."""

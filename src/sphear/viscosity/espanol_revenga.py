@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 from typing import Any
 
 from sphear.algebra import Scalar, Vector, add, dot, scale, subtract
 from sphear.corrections import Correction
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
+from sphear.positive import as_number
 from sphear.viscosity.base import ViscousTerm
 
 
@@ -53,8 +55,8 @@ class EspanolRevenga(ViscousTerm):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not abs(self.bulk) < float("inf"):
-            raise SphearError(f"bulk of viscosity 'espanol_revenga' must be a finite number, not {self.bulk}")
+        if isnan(as_number(self.bulk)):
+            raise SphearError(f"bulk of viscosity 'espanol_revenga' must be a finite number, not {quoted(self.bulk)}")
 
     def acceleration(
         self, kernel: Kernel, correction: Correction, own: Any, other: Any, d: Vector, r2: Scalar

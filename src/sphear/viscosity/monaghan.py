@@ -7,8 +7,9 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector, dot, positive_part, scale, subtract
 from sphear.corrections import Correction
-from sphear.errors import SphearError
+from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
+from sphear.positive import as_number
 from sphear.viscosity.base import ViscousTerm, regularised
 
 
@@ -63,8 +64,8 @@ class Monaghan(ViscousTerm):
         super().__post_init__()
         for name in ("alpha", "beta", "sound_speed"):
             value = getattr(self, name)
-            if value is not None and not 0 <= value < float("inf"):
-                raise SphearError(f"{name} of viscosity 'monaghan' must be zero or positive, not {value}")
+            if value is not None and not as_number(value) >= 0:
+                raise SphearError(f"{name} of viscosity 'monaghan' must be zero or positive, not {quoted(value)}")
 
     @property
     def homogeneous(self) -> bool:
