@@ -52,11 +52,12 @@ def test_running_a_case(module: ModuleType) -> None:
 
 
 def test_composing_a_simulation(module: ModuleType) -> None:
-    cylinder, swirl, observer = (dict(names) for names in run("how-to/simulations.md", module))
+    cylinder, swirl, observer, channel = (dict(names) for names in run("how-to/simulations.md", module))
     assert cylinder["simulation"].end == "time"
     assert len(cylinder["simulation"].history["kinetic_energy"]) == 6
     assert swirl["simulation"].time >= 0.2
     assert issubclass(observer["Largest"], sphear.Observer)
+    assert channel["run"].end == "time"
 
 
 def test_comparing_with_a_reference(module: ModuleType) -> None:

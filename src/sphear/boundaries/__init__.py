@@ -9,14 +9,14 @@ from sphear.lazy import lazy_names
 
 if TYPE_CHECKING:
     from sphear.boundaries.box import Box
-    from sphear.boundaries.continuation import CONTINUATIONS
+    from sphear.boundaries.continuations import CONTINUATIONS
     from sphear.boundaries.fixed import WallParticles, particles_behind, wall_particles
 else:
     __getattr__ = lazy_names(
         __name__,
         {
             "sphear.boundaries.box": ("Box",),
-            "sphear.boundaries.continuation": ("CONTINUATIONS",),
+            "sphear.boundaries.continuations": ("CONTINUATIONS",),
             "sphear.boundaries.fixed": ("WallParticles", "particles_behind", "wall_particles"),
         },
     )

@@ -10,12 +10,9 @@ and taken linearly between. Along a periodic wall there is one node: the whole o
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from sphear.engine.cache import compiled
-from sphear.names import Registry
 
 PARABOLA = 3.0  # spacings from the wall within which particles decide on the parabola: three rows of them
 
@@ -112,10 +109,3 @@ def global_quadratic(x, v, lower, upper, axis, along, velocities, spacing, a, b)
             for side in range(2):
                 a[node, side, k] = curvature * width + (-slope if side else slope)
                 b[node, side, k] = -curvature
-
-
-CONTINUATIONS: Registry[Any] = Registry("continuation")
-CONTINUATIONS.add("mirror", mirror, ("mirroring",))
-CONTINUATIONS.add("linear", linear)
-CONTINUATIONS.add("quadratic", quadratic)
-CONTINUATIONS.add("global_quadratic", global_quadratic, ("global",))

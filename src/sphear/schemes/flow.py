@@ -143,13 +143,14 @@ class Flow:
     def _check_room(self, stages: int) -> None:
         problem, settings = self.problem, self.settings
         reach = stages * self.kernel.radius
-        supports = "the kernel's support" if stages == 1 else f"{stages} supports of the kernel"
+        supports = "the kernel's support of {}" if stages == 1 else f"{stages} supports of the kernel of {{}}"
+        reaches = f"{supports.format(f'{reach:g}')} {'reaches' if stages == 1 else 'reach'} beyond"
         for axis in () if problem.shape is not None else problem.box.wall_axes:
             width = problem.box.upper[axis] - problem.box.lower[axis]
             if reach > width:
                 raise SphearError(
-                    f"{fineness(problem, settings)} is too coarse for walls={text(settings.walls)}: {supports} of"
-                    f" {reach:g} would reach beyond the width of {width:g} between the walls"
+                    f"{fineness(problem, settings)} is too coarse for walls={text(settings.walls)}: {reaches} the"
+                    f" width of {width:g} between the walls"
                 )
         check_kernel(problem, self.kernel, settings, connected=False)
         check_region(problem, self.kernel, stages)

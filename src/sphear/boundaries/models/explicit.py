@@ -6,13 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from sphear.boundaries.fixed import WallParticles, particles_behind, wall_particles
 from sphear.boundaries.models.any_model import AnyWallModel
 from sphear.errors import SphearError
-from sphear.neighbours import Domain
 
 if TYPE_CHECKING:
     from sphear.boundaries.box import Box
+    from sphear.boundaries.fixed import WallParticles
     from sphear.boundaries.shapes import Shape
     from sphear.engine.formula import Interaction
     from sphear.engine.stages import PointFormula
@@ -36,6 +35,11 @@ class ExplicitWallModel(AnyWallModel):
             density.
         from_first_layer: `at_wall` reads the sums of the first layer's particle before each, not its own.
         foreign: names of its fields that say nothing in the explicit scheme, of models that both schemes have.
+
+    Examples:
+        >>> import sphear
+        >>> [isinstance(model, sphear.ExplicitWallModel) for model in (sphear.FixedParticles(), sphear.SFDI())]
+        [True, False]
     """
 
     mirrors: ClassVar[bool] = False
@@ -66,6 +70,9 @@ class ExplicitWallModel(AnyWallModel):
         Raises:
             SphearError: fluid slips along a wall of the shape, or it cannot repeat as the box does.
         """
+        from sphear.boundaries.fixed import particles_behind, wall_particles
+        from sphear.neighbours import Domain
+
         layers = math.ceil(depth / spacing)
         if shape is None:
             return wall_particles(box, spacing, layers)

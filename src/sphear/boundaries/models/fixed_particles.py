@@ -49,6 +49,11 @@ class FixedParticles(ExplicitWallModel):
 
     Raises:
         SphearError: the continuation is none of these.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(walls=sphear.FixedParticles(continuation="linear")))
+        WeaklyCompressible(walls='fixed', continuation='linear')
     """
 
     continuation: str = "quadratic"

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, get_args
 
-from sphear.boundaries.continuation import CONTINUATIONS
-from sphear.boundaries.fixed import WallParticles, wall_particles
+from sphear.boundaries.continuations import CONTINUATIONS
 from sphear.boundaries.models.base import Divergence
 from sphear.boundaries.models.explicit import ExplicitWallModel, no_slipping
 from sphear.errors import SphearError, quoted
 
 if TYPE_CHECKING:
     from sphear.boundaries.box import Box
+    from sphear.boundaries.fixed import WallParticles
     from sphear.boundaries.shapes import Shape
 
 
@@ -31,6 +31,11 @@ class MirrorParticles(ExplicitWallModel):
 
     Raises:
         SphearError: a field is none of these.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(walls=sphear.MirrorParticles(on_wall=True)))
+        WeaklyCompressible(wall_particles=True)
     """
 
     continuation: str = "quadratic"
@@ -57,6 +62,8 @@ class MirrorParticles(ExplicitWallModel):
 
     def particles(self, box: Box, shape: Shape | None, spacing: float, depth: float) -> WallParticles:
         """None: images are found anew in each evaluation."""
+        from sphear.boundaries.fixed import wall_particles
+
         return wall_particles(box, spacing, 0)
 
     def check_free_slip(self) -> None:

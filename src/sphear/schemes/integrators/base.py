@@ -41,6 +41,11 @@ class Integrator(ABC):
     Attributes:
         restores: a step that fails on its way is undone, by what was kept of its start.
         begins_with_rates: the first step needs the rates of the start.
+
+    Examples:
+        >>> import sphear
+        >>> [sphear.INTEGRATORS[name].begins_with_rates for name in sphear.INTEGRATORS]
+        [False, True]
     """
 
     name: ClassVar[str] = "unnamed"

@@ -16,6 +16,11 @@ class KickDriftKick(Integrator):
     """The kick-drift-kick form of the leapfrog: half of the rates before and after a step, one evaluation each.
 
     The forces of the step's end depend on the velocity v + dt a.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(integrator=sphear.KickDriftKick()))
+        WeaklyCompressible(integrator='kick_drift_kick')
     """
 
     name: ClassVar[str] = "kick_drift_kick"

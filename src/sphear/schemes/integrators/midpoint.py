@@ -13,7 +13,13 @@ from sphear.schemes.point_formulas import Advanced, Kept
 
 @dataclass(frozen=True)
 class Midpoint(Integrator):
-    """The midpoint rule, second-order Runge-Kutta: rates half a step on carry the state over the whole of it."""
+    """The midpoint rule, second-order Runge-Kutta: rates half a step on carry the state over the whole of it.
+
+    Examples:
+        >>> import sphear
+        >>> print(sphear.WeaklyCompressible(integrator=sphear.Midpoint()))
+        WeaklyCompressible()
+    """
 
     name: ClassVar[str] = "midpoint"
     aliases: ClassVar[tuple[str, ...]] = ("rk2",)
