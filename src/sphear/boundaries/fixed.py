@@ -10,6 +10,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from sphear.boundaries.box import Box
+from sphear.boundaries.models.base import FIRST_ROW
 from sphear.boundaries.shapes import Dummies, Shape, dummies, repeated
 from sphear.boundaries.shapes.base import slipping
 from sphear.errors import SphearError
@@ -17,7 +18,6 @@ from sphear.neighbours import Domain
 
 Array = np.ndarray[Any, Any]
 
-FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 NEARBY = 0.1  # spacings along the wall, where it is looked for
 STEEP = 0.3  # of that way, off which the wall has turned: a corner of more than 17 degrees
 

@@ -10,15 +10,11 @@ FASTMATH = ("nnan", "ninf", "nsz", "arcp", "contract", "reassoc", "afn")
 OPTIONS = {"fastmath": set(FASTMATH), "error_model": "numpy", "nogil": True}
 
 
-def options_text(strict: bool = False) -> str:
-    """The options as generated code has them: the same text in every process, for the text's hash is its name.
-
-    Args:
-        strict: no fast-math, which takes every number for a finite one, in functions that look for others.
-    """
-    flags = "" if strict else ", ".join(map(repr, sorted(FASTMATH)))
+def options_text() -> str:
+    """The options as generated code has them: the same text in every process, for the text's hash is its name."""
+    flags = ", ".join(map(repr, sorted(FASTMATH)))
     others = ", ".join(f"{key}={value!r}" for key, value in OPTIONS.items() if key != "fastmath")
-    return f"fastmath={{{flags}}}, {others}" if flags else others
+    return f"fastmath={{{flags}}}, {others}"
 
 
 def register_bytes() -> int:

@@ -16,6 +16,7 @@ from sphear.neighbours.cells import REACH, CellSort
 
 Array = np.ndarray[Any, Any]
 
+BALL = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}  # the volume of the unit ball by dimension
 SLACK = 16  # entries that may be written or read behind the last listed one
 
 _BUILD = """
@@ -93,7 +94,7 @@ def list_capacity(cells: CellSort, rows: int, once: bool) -> tuple[int, int]:
     start, dimension = cells.start, len(cells.coordinates)
     most = int((start[2 * REACH + 1 :] - start[: -2 * REACH - 1]).max()) * len(cells.rows) + SLACK
     used = max(1, int(np.count_nonzero(np.diff(start))))
-    ball = {1: 2.0, 2: np.pi, 3: 4 * np.pi / 3}[dimension] * REACH**dimension
+    ball = BALL[dimension] * REACH**dimension
     share = 0.5 if once else 1.0
     return int(1.1 * share * rows * len(cells.order) / used * ball) + most, most
 

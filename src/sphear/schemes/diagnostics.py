@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sphear.schemes.checks import tree_of
+from sphear.schemes.energy import greatest_speed
 
 if TYPE_CHECKING:
     from sphear.schemes.flow import Flow
@@ -25,7 +26,7 @@ def diagnostics(flow: Flow) -> dict[str, float]:
     """
     problem = flow.problem
     found = {
-        "mach": float(np.sqrt((flow.velocities**2).sum(axis=1).max())) / flow.sound_speed,
+        "mach": greatest_speed(flow.velocities) / flow.sound_speed,
         "density_deviation": float(np.sqrt(np.mean((flow.density / problem.density - 1.0) ** 2))),
     }
     if (rate := flow.density_rate) is not None:

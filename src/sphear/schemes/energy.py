@@ -17,6 +17,11 @@ def kinetic_energy(mass: float, velocities: Array) -> float:
     return 0.5 * mass * float(np.einsum("nd,nd->", velocities, velocities))
 
 
+def greatest_speed(velocities: Array) -> float:
+    """max_i |u_i| of velocities (N, d); 0 of none."""
+    return float(np.sqrt((velocities**2).sum(axis=1).max(initial=0.0)))
+
+
 class EnergyBudget:
     """Kinetic energy and the work that was done on it, summed up over the steps.
 

@@ -12,7 +12,7 @@ from sphear.boundaries.shapes import Shape
 from sphear.boundaries.shapes.fastest import fastest
 from sphear.neighbours import Domain
 from sphear.schemes.base import FlowInTime
-from sphear.schemes.energy import EnergyBudget, kinetic_energy
+from sphear.schemes.energy import EnergyBudget, greatest_speed, kinetic_energy
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -39,7 +39,7 @@ class Watch:
         self.driven = bool(self.force.any()) or problem.force is not None
         self.varied = problem.force is not None
         self.walls = wall_speed(problem.box, problem.shape, problem.spacing)
-        self.fastest = max(self.walls, _largest(problem.velocities))
+        self.fastest = max(self.walls, greatest_speed(problem.velocities))
         self.start = kinetic_energy(self.mass, problem.velocities)
         self.heights = self._heights(problem)
         self.scale = 0.5 * self.mass * len(problem.positions) * problem.speed**2
@@ -59,7 +59,7 @@ class Watch:
           over.
         """
         least = NOTHING * flow.problem.speed
-        if not self.driven and (speed := _largest(flow.velocities)) > OVERTAKEN * max(self.fastest, least):
+        if not self.driven and (speed := greatest_speed(flow.velocities)) > OVERTAKEN * max(self.fastest, least):
             what = "fastest wall" if self.walls == self.fastest else "fastest particle at the start"
             times = (
                 f"{speed / self.fastest:.3g} times as fast as the {what}" if self.fastest else "on its way from rest"
@@ -80,10 +80,6 @@ class Watch:
         assert self.heights is not None
         given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)
         return float(kinetic_energy(self.mass, flow.velocities) - self.start - given)
-
-
-def _largest(velocities: Array) -> float:
-    return math.sqrt(float((velocities**2).sum(axis=1).max(initial=0.0)))
 
 
 def wall_speed(box: Box, shape: Shape | None, spacing: float) -> float:

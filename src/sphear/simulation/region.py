@@ -15,6 +15,7 @@ from sphear.boundaries.shapes import Rectangle, Shape
 from sphear.checked import number, numbers
 from sphear.errors import SphearError, quoted
 from sphear.names import unknown
+from sphear.schemes.energy import greatest_speed
 from sphear.schemes.problem import Problem
 from sphear.schemes.watch import wall_speed
 from sphear.simulation.fluid import Fluid
@@ -150,7 +151,7 @@ def _speed(walls: float, velocities: Array, force: Any, viscosity: float, extent
 
     Between plates a force f drives f L^2 / (8 nu); from rest it accelerates fluid to sqrt(2 f L) over a length.
     """
-    start = float(np.sqrt((velocities**2).sum(axis=1).max(initial=0.0)))
+    start = greatest_speed(velocities)
     f = math.hypot(*numbers(force))
     driven = math.sqrt(2.0 * f * extent)
     driven = min(driven, f * extent**2 / (8.0 * viscosity)) if viscosity else driven

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from sphear.schemes import energy
 from sphear.schemes.base import FlowInTime
 
@@ -16,4 +14,4 @@ def kinetic_energy(flow: FlowInTime) -> float:
 
 def greatest_speed(flow: FlowInTime) -> float:
     """max_i |u_i|, a length over a time."""
-    return float(np.sqrt((flow.velocities**2).sum(axis=1).max()))
+    return energy.greatest_speed(flow.velocities)

@@ -22,6 +22,7 @@ Array = np.ndarray[Any, Any]
 Continuation = Literal["mirror", "linear", "quadratic", "wall"]
 Divergence = Literal["slipping", "continued"]
 
+FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 REACH = 3.0  # spacings around a mirror point: some 14 particles for a plane
 TERMS = {"linear": 1, "quadratic": 3}  # of the fit before a wall
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sphear.boundaries.models.base import Array, WallModel
+from sphear.boundaries.models.base import FIRST_ROW, Array, WallModel
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
 TOO_NEAR = 0.3  # spacings between particles on walls; those in right corners are half of one from the next
-FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 
 
 @dataclass(frozen=True)

@@ -19,12 +19,11 @@ from sphear.engine.backends.cpu.sizes import (
     WANTED,
 )
 from sphear.neighbours.cells import PADDING, REACH
-from sphear.neighbours.pair_list import SLACK, selection_table_once
+from sphear.neighbours.pair_list import BALL, SLACK, selection_table_once
 
 Array = np.ndarray[Any, Any]
 
 CACHE_LINE = 64  # bytes
-BALL = {2: np.pi, 3: 4.0 / 3.0 * np.pi}
 
 
 class Memory:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
-from sphear.engine.backends.cpu.particle_text import ELEMENTARY, Fields, forms, reads_text
+from sphear.boundaries.box import ON_WALL
+from sphear.engine.backends.cpu.particle_text import ELEMENTARY, RANGES, Fields, forms, reads_text
 from sphear.engine.backends.cpu.written import WrittenStage
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
@@ -14,10 +15,6 @@ from sphear.engine.point_formula import traced_point
 from sphear.engine.program import sweep_text
 from sphear.engine.stages import AtImages, Column, Columns, Rows
 from sphear.engine.sweep import FAR
-
-ON_WALL = 64  # the bit of entries that stand on a wall
-LOW_HIGH = {Rows.FLUID: ("0", "count"), Rows.WALLS: ("count", "total"), Rows.PARTICLES: ("0", "total")}
-LOW_HIGH[Rows.ENTRIES] = ("0", "listed")
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,7 @@ def pair_sum(
     sizes = {"count": "FLUID", "total": "PARTICLES", "entries": "ENTRIES", "listed": "LISTED", "parts": "PARTS"}
     for name, size in sizes.items():
         stage.size(name, size)
-    low, high = LOW_HIGH[of.rows]
+    low, high = RANGES[of.rows]
     stage.body = [
         "for part in prange(parts):",
         "    for s in range(entries * part // parts, entries * (part + 1) // parts):",

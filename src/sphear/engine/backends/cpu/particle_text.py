@@ -9,7 +9,15 @@ from typing import Any
 from sphear.engine.backends.cpu.written import WrittenStage
 from sphear.engine.formula import Shape
 from sphear.engine.point_formula import TracedPoint
+from sphear.engine.stages import Rows
 
+# the first row of each kind and the one after the last
+RANGES = {
+    Rows.FLUID: ("0", "count"),
+    Rows.WALLS: ("count", "total"),
+    Rows.PARTICLES: ("0", "total"),
+    Rows.ENTRIES: ("0", "listed"),
+}
 ELEMENTARY = "from sphear.engine.lanes import exp, positive_part, sqrt, where_less"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from sphear.engine.backends.cpu.particle_text import (
     ELEMENTARY,
+    RANGES,
     Fields,
     element,
     forms,
@@ -12,10 +13,7 @@ from sphear.engine.backends.cpu.particle_text import (
 )
 from sphear.engine.backends.cpu.written import WrittenStage
 from sphear.engine.point_formula import traced_point
-from sphear.engine.stages import PerParticle, Rows
-
-# the first row and the one after the last
-RANGES = {Rows.FLUID: ("0", "count"), Rows.WALLS: ("count", "total"), Rows.PARTICLES: ("0", "total")}
+from sphear.engine.stages import PerParticle
 
 
 def per_particle(of: PerParticle, fields: Fields, parameters: str) -> WrittenStage:

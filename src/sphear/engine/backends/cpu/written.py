@@ -77,17 +77,16 @@ class WrittenStage:
         """Make one of the sizes known to the text."""
         self.views.append(f"{name} = {self._extent(size)}")
 
-    def text(self, parallel: bool, strict: bool = False) -> str:
+    def text(self, parallel: bool) -> str:
         """The module of the stage.
 
         Args:
             parallel: whether loops over parts are shared out to threads.
-            strict: no fast-math.
         """
         return _MODULE.format(
             title=self.title,
             imports="\n".join(self.imports),
-            options=options_text(strict) + (", parallel=True" if parallel else ""),
+            options=options_text() + (", parallel=True" if parallel else ""),
             views=block(self.views, 4),
             body=block(self.body, 4),
         )
