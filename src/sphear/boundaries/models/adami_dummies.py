@@ -9,10 +9,10 @@ import numpy as np
 
 from sphear.algebra import where_less
 from sphear.boundaries.models.base import Array, Sampling, WallModel
+from sphear.boundaries.models.before_wall import FluidBeforeWall
 from sphear.boundaries.models.explicit import ExplicitWallModel
 from sphear.engine.stages import PointFormula
 from sphear.equations_of_state import EquationOfState
-from sphear.interactions import FluidBeforeWall
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
