@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, get_args
 
-import numpy as np
-
 from sphear.boundaries.continuations import LeaningParabola, Line, Mirror, Wall
 from sphear.boundaries.models.any_model import AnyWallModel
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
+    import numpy as np
     from scipy.sparse import csr_array
 
     from sphear.boundaries.shapes import Dummies
     from sphear.neighbours import Domain
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
-Array = np.ndarray[Any, Any]
+    Array = np.ndarray[Any, Any]
+
 Continuation = Literal["mirror", "linear", "quadratic", "wall"]
 Divergence = Literal["slipping", "continued"]
 
@@ -132,6 +132,8 @@ class WallModel(AnyWallModel):
             behind: Array = Mirror.behind(walls.velocities, interpolation.mirrored @ velocities)
             behind[: walls.on_wall] = walls.velocities[: walls.on_wall]
             return behind
+        import numpy as np  # takes long: models are listed without it
+
         total = np.asarray(interpolation.continued.sum(axis=1)).reshape(-1, 1)
         fitted: Array = interpolation.continued @ velocities + (1.0 - total) * walls.velocities
         return fitted
@@ -149,6 +151,8 @@ class WallModel(AnyWallModel):
             density: of the fluid.
             way: (W, d), w.
         """
+        import numpy as np  # see above
+
         result: Array = -density * np.einsum("wd,wd->w", accelerations, way)
         return result
 
