@@ -95,9 +95,10 @@ def numbers(settings: dict[str, Any]) -> dict[str, list[float]]:
     """Means, root mean squares and weighted sums of each field after so many steps."""
     import sphear
 
-    given = {"threads": 1, **settings}
-    flow = sphear.flow(given.pop("case"), **given).flow
-    flow.advance(STEPS)
+    given = {"threads": 1, "max_steps": STEPS, **settings}
+    run = sphear.flow(given.pop("case"), beyond=("steady", "failed"), **given).run()
+    assert run.flow.steps == STEPS, run.end
+    flow = run.flow
     found = {}
     for name in ("positions", "velocities", "density", "pressure"):
         values = np.asarray(getattr(flow, name)).reshape(flow.count, -1)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.boundaries import CONTINUATIONS, Box, continuation
+from sphear.boundaries import Box, side_fits
 from sphear.boundaries.box import with_images
 from sphear.boundaries.mirror import mirror_velocities, wall_nodes
 
@@ -35,7 +35,7 @@ def continued(rule: str, profile: Callable[[Array], Array], axis: int = 1, **wal
     v = np.zeros_like(x)
     v[:, 1 - axis] = profile(x[:, axis])
     a, b = np.zeros((1, 2, 2)), np.zeros((1, 2, 2))
-    getattr(continuation, rule)(x, v, lower, upper, axis, -1, velocities[axis], SPACING, a, b)
+    getattr(side_fits, rule)(x, v, lower, upper, axis, -1, velocities[axis], SPACING, a, b)
     along = 1 - axis
     continued: Array = velocities[axis][:, [along]] - a[0, :, [along]].T * DEPTHS + b[0, :, [along]].T * DEPTHS**2
     return continued
@@ -108,7 +108,7 @@ def test_nothing_near_a_wall_leaves_its_velocity(rule: str) -> None:
     a, b = np.ones((3, 2, 2)), np.ones((3, 2, 2))
     nobody = np.zeros((0, 2))
     corners = np.zeros(2), np.ones(2)
-    getattr(continuation, rule)(nobody, nobody, *corners, 1, 0, np.zeros((2, 2)), SPACING, a, b)
+    getattr(side_fits, rule)(nobody, nobody, *corners, 1, 0, np.zeros((2, 2)), SPACING, a, b)
     assert not a.any()
     assert not b.any()
 
@@ -126,7 +126,7 @@ def along_a_wall(
     """What is fitted at the nodes of the lower wall to u = slope(x) y + bend(x) y^2 in the unit square."""
     v = np.stack((slope(x[:, 0]) * x[:, 1] + bend(x[:, 0]) * x[:, 1] ** 2, np.zeros(len(x))), axis=1)
     a, b = np.zeros((len(NODES), 2, 2)), np.zeros((len(NODES), 2, 2))
-    getattr(continuation, rule)(x, v, np.zeros(2), np.ones(2), 1, 0, np.zeros((2, 2)), SPACING, a, b)
+    getattr(side_fits, rule)(x, v, np.zeros(2), np.ones(2), 1, 0, np.zeros((2, 2)), SPACING, a, b)
     return a[:, 0, 0], b[:, 0, 0]
 
 
@@ -271,8 +271,3 @@ def test_particles_and_periodic_images_keep_their_velocity() -> None:
     inside = flow.wall == 0
     assert inside.sum() > 60
     np.testing.assert_array_equal(flow.found[inside], flow.v[flow.source[inside]])
-
-
-def test_names() -> None:
-    assert CONTINUATIONS.name("mirroring") == "mirror"
-    assert CONTINUATIONS.name("global") == "global_quadratic"

@@ -10,9 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sphear import WendlandC2
+from sphear.boundaries.continuations import LeaningParabola, Line
+from sphear.boundaries.models.wall_fit import WallFit, WallWeights
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import PointFit, PointWeights
-from sphear.interactions.wall_fit import WallFit, WallWeights
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from tests.particles import Array, jittered
 
@@ -47,10 +48,10 @@ class Wall:
         self.feet = np.linspace(-1.2, 1.3, len(depths))[:, None] * along
         self.depths = depths
 
-    def rows(self, terms: int) -> Array:
+    def rows(self, curve: Line) -> Array:
         depth = np.concatenate((self.depths, self.distance))
         normal = np.concatenate((np.tile(self.normal, (len(self.depths), 1)), np.zeros_like(self.particles)))
-        weights, fit = WallWeights(KERNEL, terms), WallFit(KERNEL, terms)
+        weights, fit = WallWeights(KERNEL, curve), WallFit(KERNEL, curve)
         return rows(self.feet, self.particles, weights, fit, depth=depth, normal=normal)
 
 
@@ -102,27 +103,27 @@ def test_a_parabola_is_continued_behind_a_wall(seed: int, angle: float, field: t
     fluid = a * wall.distance + b * wall.distance**2 + c * wall.distance * wall.places
     here = np.linspace(-1.2, 1.3, len(DEPTHS))
     expected = -a * DEPTHS + b * DEPTHS**2 - c * DEPTHS * here
-    np.testing.assert_allclose(wall.rows(3) @ fluid, expected, atol=1e-8)
+    np.testing.assert_allclose(wall.rows(LeaningParabola()) @ fluid, expected, atol=1e-8)
 
 
 @given(seed=st.integers(0, 99), angle=st.floats(0.0, 6.3), slope=SMALL)
 def test_a_line_is_continued_behind_a_wall(seed: int, angle: float, slope: float) -> None:
     wall = Wall(angle, seed, DEPTHS)
-    np.testing.assert_allclose(wall.rows(1) @ (slope * wall.distance), -slope * DEPTHS, atol=1e-10)
+    np.testing.assert_allclose(wall.rows(Line()) @ (slope * wall.distance), -slope * DEPTHS, atol=1e-10)
 
 
 def test_one_particle_before_a_wall_gives_a_line() -> None:
     wall = Wall(0.0, 0, DEPTHS[1:2])
     wall.feet[:] = 0.0
     wall.particles, wall.distance = np.array([[0.3, 0.5]]), np.array([0.5])
-    for terms in (1, 3):
-        np.testing.assert_allclose(wall.rows(terms), [[-1.0]], atol=1e-12)
+    for curve in (Line(), LeaningParabola()):
+        np.testing.assert_allclose(wall.rows(curve), [[-1.0]], atol=1e-12)
 
 
 def test_without_fluid_before_it_a_wall_has_nothing_to_continue() -> None:
     wall = Wall(0.0, 0, DEPTHS)
     wall.feet += np.array([50.0, 0.0])
-    assert not wall.rows(3).any()
+    assert not wall.rows(LeaningParabola()).any()
 
 
 def normal_rows(points: Array, normals: Array, particles: Array) -> Array:

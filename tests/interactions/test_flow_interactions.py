@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 
 from sphear import CORRECTIONS, VISCOSITY, CubicSpline, Domain, Particles
+from sphear.boundaries.continuations import Line, Parabola
+from sphear.boundaries.models.before_wall import FluidBeforeWall, VelocityBeforeWall
 from sphear.interactions import (
     Advection,
     Continuity,
     DensityAdvection,
     DensityDiffusion,
-    FluidBeforeWall,
     InternalEnergy,
     Part,
     PressureForce,
@@ -22,7 +23,6 @@ from sphear.interactions import (
     SummationDensity,
     TransportStress,
     TransportVelocity,
-    VelocityBeforeWall,
     ViscousForce,
 )
 from sphear.operators.pipeline import Operation, run
@@ -309,15 +309,15 @@ def fluid_velocity(places: Array, known: dict[str, Any], bend: float) -> Array:
     return np.asarray(known["wall_velocity"] + np.array([2.0, -0.7]) * y + bend * np.array([0.5, 0.3]) * y**2)
 
 
-@pytest.mark.parametrize(("degree", "bend"), [(1, 0.0), (2, 0.0), (2, 1.0)])
-def test_a_profile_that_the_fit_knows_is_found_exactly(degree: int, bend: float) -> None:
+@pytest.mark.parametrize(("curve", "bend"), [(Line(), 0.0), (Parabola(), 0.0), (Parabola(), 1.0)])
+def test_a_profile_that_the_fit_knows_is_found_exactly(curve: Line, bend: float) -> None:
     places, known = before_a_wall()
     fluid = known["fluid"] > 0
     known["velocity"][fluid] = fluid_velocity(places, known, bend)[fluid]
-    found = computed(VelocityBeforeWall(KERNEL, degree), known, positions=places)[-6:]
+    found = computed(VelocityBeforeWall(KERNEL, curve), known, positions=places)[-6:]
     expected = np.tile((2.0, -0.7, bend * 0.5, bend * 0.3), (4, 1))
     # two spacings deep the kernel reaches one row: enough for a line
-    rows = slice(0, 4) if degree == 1 else slice(0, 2)
+    rows = slice(0, 4) if curve == Line() else slice(0, 2)
     np.testing.assert_allclose(found[rows], expected[rows], rtol=1e-7, atol=1e-9)
     np.testing.assert_array_equal(found[4:], 0.0)
 
@@ -326,7 +326,7 @@ def test_a_line_through_a_parabola_fits_it_best_under_the_kernel() -> None:
     places, known = before_a_wall()
     fluid = known["fluid"] > 0
     known["velocity"][fluid] = fluid_velocity(places, known, 1.0)[fluid]
-    found = computed(VelocityBeforeWall(KERNEL, 1), known, positions=places)[-6:-2]
+    found = computed(VelocityBeforeWall(KERNEL, Line()), known, positions=places)[-6:-2]
     for place, line in zip(places[-6:-2], found, strict=True):
         r2 = ((places[fluid] - place) ** 2).sum(axis=1)
         weight = known["volume"][fluid] * KERNEL.value(r2, 2)

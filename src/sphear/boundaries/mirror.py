@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from numba.extending import register_jitable
 
 from sphear.boundaries.box import ON_WALL
-from sphear.boundaries.continuation import node_along
+from sphear.boundaries.continuations import Mirror, Parabola
+from sphear.boundaries.side_fits import node_along
 from sphear.engine.cache import compiled
 
 NODE_SPACING = 4.0  # of the nodes along a wall, in particle spacings
+
+reflection = register_jitable(Mirror.behind)
+continued = register_jitable(Parabola.behind)
 
 
 @compiled
@@ -66,11 +71,11 @@ def mirror_velocities(  # type: ignore[no-untyped-def]
                 after = node + 1 if share > 0.0 else node
                 for k in range(dimension):
                     if reflected or k == axis:
-                        velocity[e, k] = 2.0 * velocities[side, k] - v[i, k]
+                        velocity[e, k] = reflection(velocities[side, k], v[i, k])
                     else:
                         slope = (1.0 - share) * a[node, side, k] + share * a[after, side, k]
                         bend = (1.0 - share) * b[node, side, k] + share * b[after, side, k]
-                        velocity[e, k] = velocities[side, k] - slope * depth + bend * depth**2
+                        velocity[e, k] = continued(velocities[side, k], (slope, bend), depth)
             elif slips[side] and bits & alone:  # a corner: the other wall reflects the rest
                 for k in range(dimension):
                     if k != axis:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from sphear.algebra import Scalar, sqrt
 from sphear.equations_of_state.base import Barotropic
 from sphear.errors import SphearError
@@ -65,6 +63,8 @@ class BatchelorTait(Barotropic):
         Raises:
             SphearError: a pressure is below -rho0 c0^2 / gamma, that of zero density.
         """
+        import numpy as np  # takes long: equations are listed without it
+
         power = 1.0 + self.gamma * pressure / (self.rho0 * self.c0**2)
         if np.any(np.less(power, 0.0)):
             least = -self.rho0 * self.c0**2 / self.gamma

@@ -16,7 +16,6 @@ from sphear.interactions.transport import (
     TransportVelocity,
 )
 from sphear.interactions.viscous_acceleration import ViscousAcceleration, ViscousForce
-from sphear.interactions.wall_particles import FluidBeforeWall, VelocityBeforeWall
 
 __all__ = [
     "Advection",
@@ -25,7 +24,6 @@ __all__ = [
     "DensityDiffusion",
     "DensityGradient",
     "Divergence",
-    "FluidBeforeWall",
     "Gradient",
     "InternalEnergy",
     "Interpolation",
@@ -38,7 +36,6 @@ __all__ = [
     "SummationDensity",
     "TransportStress",
     "TransportVelocity",
-    "VelocityBeforeWall",
     "ViscousAcceleration",
     "ViscousForce",
 ]

@@ -5,17 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from sphear.algebra import where_less
-from sphear.boundaries.models.base import Array, Sampling, WallModel
+from sphear.boundaries.models.base import Sampling, WallModel
+from sphear.boundaries.models.before_wall import FluidBeforeWall
 from sphear.boundaries.models.explicit import ExplicitWallModel
 from sphear.engine.stages import PointFormula
 from sphear.equations_of_state import EquationOfState
-from sphear.interactions import FluidBeforeWall
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
+    from sphear.boundaries.models.base import Array
     from sphear.boundaries.shapes import Dummies
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
@@ -69,6 +68,8 @@ class AdamiDummies(WallModel, ExplicitWallModel):
 
     def way(self, walls: Walls, interpolation: WallInterpolation, positions: Array) -> Array:
         """(W, d): from dummies to the middle of the fluid around them, in corners aside of the wall."""
+        import numpy as np  # takes long: models are listed without it
+
         weights = interpolation.mirrored
         wall = np.repeat(np.arange(walls.count), np.diff(weights.indptr))
         way = positions[weights.indices] - walls.dummies.positions[wall]

@@ -5,26 +5,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, get_args
 
-import numpy as np
-
+from sphear.boundaries.continuations import LeaningParabola, Line, Mirror, Wall
 from sphear.boundaries.models.any_model import AnyWallModel
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
 
 if TYPE_CHECKING:
+    import numpy as np
     from scipy.sparse import csr_array
 
     from sphear.boundaries.shapes import Dummies
     from sphear.neighbours import Domain
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
-Array = np.ndarray[Any, Any]
+    Array = np.ndarray[Any, Any]
+
 Continuation = Literal["mirror", "linear", "quadratic", "wall"]
 Divergence = Literal["slipping", "continued"]
 
 FIRST_ROW = 0.75  # spacings behind a wall, up to which its first row is; beyond a corner it is 0.71
 REACH = 3.0  # spacings around a mirror point: some 14 particles for a plane
-TERMS = {"linear": 1, "quadratic": 3}  # of the fit before a wall
+CURVES = {"linear": Line(), "quadratic": LeaningParabola()}  # that are fitted before a wall
 
 
 class Sampling(NamedTuple):
@@ -80,9 +81,9 @@ class WallModel(AnyWallModel):
                 )
 
     @property
-    def terms(self) -> int:
-        """The number of terms of the fit that continues velocities; 0 of those that need none."""
-        return TERMS.get(self.continuation, 0)
+    def curve(self) -> Line | None:
+        """The curve that continues velocities; None of continuations that fit none."""
+        return CURVES.get(self.continuation)
 
     def wall_particles(self, behind: Dummies, spacing: float, window: Domain) -> Dummies:
         """The W particles that stand for the walls: the dummies behind them, after any on them.
@@ -124,12 +125,15 @@ class WallModel(AnyWallModel):
             interpolation: of the fluid's fields.
             velocities: (N, d), of the fluid.
         """
-        if self.continuation == "wall":
-            return walls.velocities
+        if self.continuation == Wall.name:
+            still: Array = Wall.behind(walls.velocities)
+            return still
         if interpolation.continued is None:
-            behind: Array = 2.0 * walls.velocities - interpolation.mirrored @ velocities
+            behind: Array = Mirror.behind(walls.velocities, interpolation.mirrored @ velocities)
             behind[: walls.on_wall] = walls.velocities[: walls.on_wall]
             return behind
+        import numpy as np  # takes long: models are listed without it
+
         total = np.asarray(interpolation.continued.sum(axis=1)).reshape(-1, 1)
         fitted: Array = interpolation.continued @ velocities + (1.0 - total) * walls.velocities
         return fitted
@@ -147,6 +151,8 @@ class WallModel(AnyWallModel):
             density: of the fluid.
             way: (W, d), w.
         """
+        import numpy as np  # see above
+
         result: Array = -density * np.einsum("wd,wd->w", accelerations, way)
         return result
 

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from sphear.algebra import dot, scale, subtract, where_less
+from sphear.boundaries.continuations import Line, Parabola
+from sphear.boundaries.models.before_wall import VelocityBeforeWall
 from sphear.boundaries.models.explicit import ExplicitWallModel
 from sphear.engine.stages import PointFormula
 from sphear.equations_of_state import EquationOfState
 from sphear.errors import SphearError
-from sphear.interactions import VelocityBeforeWall
 from sphear.kernels import Kernel
 
-FIT_DEGREES = {"linear": 1, "quadratic": 2}
+CURVES = {"linear": Line(), "quadratic": Parabola()}
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,13 @@ class ContinuedVelocity:
     def at(self, own: Any) -> dict[str, Any]:
         """From the fit before the wall."""
         dimension = len(own.normal)
-        slope, bend = own.before_wall[:dimension], own.before_wall[dimension:]
-        change = subtract(scale(own.depth * own.depth, bend), scale(own.depth, slope))
-        along = subtract(change, scale(dot(change, own.normal), own.normal))
+        fits = zip(own.before_wall[:dimension], own.before_wall[dimension:], strict=True)
+        behind = tuple(Parabola.behind(u, fit, own.depth) for u, fit in zip(own.wall_velocity, fits, strict=True))
+        change = subtract(behind, own.wall_velocity)
+        along = subtract(behind, scale(dot(change, own.normal), own.normal))
         return {
             "velocity": tuple(
-                u + where_less(0.0, own.depth, more, 0.0) for u, more in zip(own.wall_velocity, along, strict=True)
+                where_less(0.0, own.depth, u, wall) for u, wall in zip(along, own.wall_velocity, strict=True)
             )
         }
 
@@ -66,7 +68,7 @@ class FixedParticles(ExplicitWallModel):
     from_first_layer = True
 
     def __post_init__(self) -> None:
-        if self.continuation not in FIT_DEGREES:
+        if self.continuation not in CURVES:
             raise SphearError(
                 f"walls=fixed continue the fluid's velocity by continuation=linear or quadratic, not"
                 f" {self.continuation}"
@@ -74,7 +76,7 @@ class FixedParticles(ExplicitWallModel):
 
     def before_wall(self, kernel: Kernel) -> VelocityBeforeWall:
         """The fit of a and b to the fluid before the wall."""
-        return VelocityBeforeWall(kernel, FIT_DEGREES[self.continuation])
+        return VelocityBeforeWall(kernel, CURVES[self.continuation])
 
     def at_wall(self, equation: EquationOfState, with_density: bool) -> PointFormula:
         """The velocity at the depth of the particle."""

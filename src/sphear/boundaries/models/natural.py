@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from sphear.boundaries.models.base import Array, WallModel
+from sphear.boundaries.models.base import WallModel
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
+    from sphear.boundaries.models.base import Array
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
 
 
@@ -35,6 +34,8 @@ class Natural(WallModel):
 
     def jump(self, walls: Walls, accelerations: Array, density: float, way: Array) -> Array:
         """(0,): pressures are the same on both sides of walls."""
+        import numpy as np  # takes long: models are listed without it
+
         return np.zeros(0)
 
     def pressure_weights(

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from sphear.boundaries.models.base import FIRST_ROW, Array, WallModel
+from sphear.boundaries.models.base import FIRST_ROW, WallModel
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
+    from sphear.boundaries.models.base import Array
     from sphear.boundaries.shapes import Dummies
     from sphear.neighbours import Domain
     from sphear.schemes.incompressible.walls import WallInterpolation, Walls
@@ -39,7 +38,8 @@ class SFDI(WallModel):
 
     def wall_particles(self, behind: Dummies, spacing: float, window: Domain) -> Dummies:
         """The dummies after particles on the walls, at the feet of the first row, each some way from the others."""
-        from scipy.spatial import cKDTree  # takes long, as what is imported below: models are listed without it
+        import numpy as np  # takes long, as what is imported below: models are listed without it
+        from scipy.spatial import cKDTree
 
         first = behind.depths < FIRST_ROW * spacing
         feet, normals, velocities = behind.feet[first], behind.normals[first], behind.velocities[first]
@@ -74,6 +74,7 @@ class SFDI(WallModel):
         self, walls: Walls, interpolation: WallInterpolation, column: Array, unknowns: int
     ) -> csr_array | None:
         """(W - S, unknowns): the pressure of the nearest particle on the wall."""
+        import numpy as np
         from scipy.sparse import csr_array
 
         behind = walls.nearest_on_wall[walls.on_wall :]
@@ -95,6 +96,7 @@ class SFDI(WallModel):
         self, walls: Walls, matrix: csr_array, positions: Array, fluid: Array, column: Array
     ) -> tuple[csr_array, Array]:
         """The rows of the particles on walls below: n . grad p, over the spacing, so that all rows are of one size."""
+        import numpy as np
         from scipy.sparse import csr_array, vstack
 
         count, on = len(fluid), walls.on_wall

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from sphear.errors import SphearError
-from sphear.pressure.preconditioners.base import Preconditioner, Vector
+from sphear.pressure.preconditioners.base import Preconditioner
 
 if TYPE_CHECKING:
+    from sphear.pressure.preconditioners.base import Vector
     from sphear.pressure.system import PressureSystem
 
 
@@ -49,6 +48,7 @@ class AlgebraicMultigrid(Preconditioner):
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """Choose the coarse levels and set them up."""
         self.check()
+        import numpy as np
         import pyamg
         from scipy.sparse import csr_matrix  # takes long: preconditioners are listed without it
 

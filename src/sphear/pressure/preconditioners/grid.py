@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from sphear.errors import SphearError, quoted
 from sphear.positive import is_positive
-from sphear.pressure.preconditioners.base import Preconditioner, Vector
+from sphear.pressure.preconditioners.base import Preconditioner
 
 if TYPE_CHECKING:
+    from sphear.pressure.preconditioners.base import Vector
     from sphear.pressure.system import PressureSystem
 
 

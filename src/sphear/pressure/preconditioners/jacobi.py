@@ -6,9 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from sphear.pressure.preconditioners.base import Preconditioner, Vector
+from sphear.pressure.preconditioners.base import Preconditioner
 
 if TYPE_CHECKING:
+    from sphear.pressure.preconditioners.base import Vector
     from sphear.pressure.system import PressureSystem
 
 

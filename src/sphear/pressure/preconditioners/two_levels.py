@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.fft import next_fast_len
 
 from sphear.engine.cache import compiled
-from sphear.pressure.preconditioners.base import Vector
 from sphear.pressure.preconditioners.multigrid import MultigridPoisson
 from sphear.pressure.preconditioners.poisson import BoxPoisson
 from sphear.pressure.preconditioners.transfer import deposit, interpolate_and_add, surrounding_nodes
 from sphear.pressure.system import PressureSystem
+
+if TYPE_CHECKING:
+    from sphear.pressure.preconditioners.base import Vector
 
 FULL = 0.25  # of a node, from which on it is not a hole; disordered particles leave more than half
 SAMPLE = 500  # rows that the coefficient of the Laplacian is measured from

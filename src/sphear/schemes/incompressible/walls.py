@@ -9,12 +9,13 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import cKDTree
 
+from sphear.boundaries.continuations import Mirror, Shearless
 from sphear.boundaries.models import WallModel
+from sphear.boundaries.models.wall_fit import WallFit, WallWeights
 from sphear.boundaries.shapes import Dummies
 from sphear.boundaries.shapes.base import slipping
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import LEAST_PIVOT, PointFit, PointWeights
-from sphear.interactions.wall_fit import WallFit, WallWeights
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
 from sphear.schemes.incompressible.particle_sums import ParticleSums
@@ -84,7 +85,7 @@ class Walls:
         points, kernel, order = self.sampling
         fit = PointFit(kernel, order, self.least_pivot)
         mirrored = self._matrix(points, positions, near, kernel, fit, PointWeights(kernel))
-        if not (terms := self.model.terms):
+        if (curve := self.model.curve) is None:
             return WallInterpolation(mirrored, None)
         kernel = self._continuation_kernel
         fields = {
@@ -92,7 +93,7 @@ class Walls:
             "normal": np.concatenate((self.normals, np.zeros((len(near), positions.shape[1])))),
         }
         before = self._matrix(
-            self.feet, positions, near, kernel, WallFit(kernel, terms), WallWeights(kernel, terms), fields
+            self.feet, positions, near, kernel, WallFit(kernel, curve), WallWeights(kernel, curve), fields
         )
         return WallInterpolation(mirrored, before)
 
@@ -137,8 +138,8 @@ class Walls:
         """
         behind = self.slipping(interpolation, velocities)[len(velocities) :]
         across = np.einsum("wd,wd->w", behind, self.normals)[:, None] * self.normals
-        bent = (self.curvatures * self.depths)[:, None]
-        result: Array = across + (behind - across) * (1.0 + bent) / (1.0 - bent)
+        along = Shearless.behind(behind - across, (self.curvatures * self.depths)[:, None])
+        result: Array = across + along
         return result
 
     def slipping(self, interpolation: WallInterpolation, velocities: Array, since: float = 0.0) -> Array:
@@ -151,9 +152,9 @@ class Walls:
         """
         behind = interpolation.mirrored @ velocities
         wall = self.velocities + since * self.accelerations
-        across = np.einsum("wd,wd->w", behind - wall, self.normals)[:, None]
-        strength = np.where(self.depths > 0, 2.0, 1.0)[:, None]
-        return np.concatenate((velocities, behind - strength * across * self.normals))
+        before, at_wall = (np.einsum("wd,wd->w", field, self.normals) for field in (behind, wall))
+        across = np.where(self.depths > 0, Mirror.behind(at_wall, before), at_wall)
+        return np.concatenate((velocities, behind + (across - before)[:, None] * self.normals))
 
     def even(self, interpolation: WallInterpolation, field: Array) -> Array:
         """(N + W, ...): a field that is the same on both sides of walls."""

@@ -15,7 +15,7 @@ def image_velocities(dimension: int, continuation: str) -> WrittenStage:
     stage = WrittenStage(f"velocities of images, {continuation}")
     stage.imports = [
         "import numpy as np",
-        f"from sphear.boundaries.continuation import {continuation} as fit",
+        f"from sphear.boundaries.side_fits import {continuation} as fit",
         "from sphear.boundaries.mirror import mirror_velocities, wall_nodes",
     ]
     stage.view("x", "position", "float_table", "FLUID", dimension)
