@@ -42,7 +42,7 @@ def _pool(threads: int, process: int) -> ThreadPoolExecutor:
 
 
 def on_threads(function: Callable[[S], T], items: Sequence[S], threads: int) -> list[T]:
-    """function(item) of each item, in their order; an error of any is raised when all are done.
+    """function(item) of each item, in their order; an error of any is raised once nothing is at work any more.
 
     The thread that calls takes its part: others are woken to help, and one that comes late finds nothing left to do.
     """
