@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_matrix
 
 from sphear.pressure import PRECONDITIONERS, Grid
+from sphear.pressure.preconditioners import transfer
 from sphear.pressure.preconditioners.multigrid import MultigridPoisson
 from sphear.pressure.preconditioners.poisson import BoxPoisson
-from sphear.pressure.preconditioners.transfer import deposit, interpolate_and_add, surrounding_nodes
+from sphear.pressure.preconditioners.transfer import Transfer
 from tests.pressure.problems import box, fixed, random_right
 
 
@@ -58,19 +59,20 @@ def test_the_transforms_solve_poissons_equation(counts: tuple[int, ...]) -> None
 
 
 @pytest.mark.parametrize("periodic", [False, True])
-def test_transfer(periodic: bool) -> None:
+@pytest.mark.parametrize("block", [5000, 20])
+def test_transfer(periodic: bool, block: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Constants are interpolated exactly, everything between the nodes is linear, and depositing is the transpose."""
     rng = np.random.default_rng(0)
-    positions, lower, size = 1.4 * rng.random((50, 2)) - 0.2, np.zeros(2), np.array([0.25, 0.2])
-    counts, flags = np.array([4, 5]), np.array([periodic, periodic])
-    nodes, weights = surrounding_nodes(positions, lower, size, counts, flags)
-    zero, vector, grid, room = np.zeros(50), rng.random(50), rng.random(20), np.empty(20)
-    assert np.allclose(interpolate_and_add(nodes, weights, np.ones(20), zero, zero), 1.0)
-    deposit(nodes, weights, vector, room)
-    assert room @ grid == pytest.approx(vector @ interpolate_and_add(nodes, weights, grid, zero, zero))
+    monkeypatch.setattr(transfer, "BLOCK", block)
+    positions, size = 1.4 * rng.random((50, 2)) - 0.2, (0.25, 0.2)
+    between = Transfer(positions, (0, 0), size, (4, 5), (periodic, periodic), 2)
+    zero, vector, grid = np.zeros(50), rng.random(50), rng.random(20)
+    assert np.allclose(between.interpolate_and_add(np.ones(20), zero, zero), 1.0)
+    room = between.deposit(vector)
+    assert room @ grid == pytest.approx(vector @ between.interpolate_and_add(grid, zero, zero))
     x = ((np.arange(20) // 5) + 0.5) * size[0]
     inside = (np.abs(positions - 0.5) < np.array([0.375, 0.4])).all(axis=1)
-    assert np.allclose(interpolate_and_add(nodes, weights, x, zero, zero)[inside], positions[inside, 0])
+    assert np.allclose(between.interpolate_and_add(x, zero, zero)[inside], positions[inside, 0])
 
 
 def test_the_coefficient_of_the_laplacian_is_measured() -> None:

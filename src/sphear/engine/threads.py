@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from functools import lru_cache
+from itertools import count
 from numbers import Integral
 from typing import Any, TypeVar
 
@@ -41,10 +42,29 @@ def _pool(threads: int, process: int) -> ThreadPoolExecutor:
 
 
 def on_threads(function: Callable[[S], T], items: Sequence[S], threads: int) -> list[T]:
-    """function(item) of each item, in their order; the first error of any is raised."""
+    """function(item) of each item, in their order; an error of any is raised once nothing is at work any more.
+
+    The thread that calls takes its part: others are woken to help, and one that comes late finds nothing left to do.
+    """
     if threads == 1 or len(items) < 2:
         return [function(item) for item in items]
-    return list(_pool(threads, os.getpid()).map(function, items))
+    results: list[Any] = [None] * len(items)
+    numbers = count()
+
+    def work() -> None:
+        while (number := next(numbers)) < len(items):
+            results[number] = function(items[number])
+
+    pool = _pool(threads, os.getpid())
+    helpers = [pool.submit(work) for _ in range(min(threads, len(items)) - 1)]
+    try:
+        work()
+    finally:
+        begun = [helper for helper in helpers if not helper.cancel()]
+        wait(begun)
+    for helper in begun:
+        helper.result()
+    return results
 
 
 def _compiler_lock() -> Any:

@@ -91,7 +91,20 @@ def pair_weights(
     own: tuple[Shape, ...] = (),
     prepared: Sequence[Array] = (),
 ) -> Array:
-    """The weights of all pairs, (components, pairs), in the order of the chunks of the pair list.
+    """The weights of all pairs, (components, pairs), in the order of the chunks: see `chunk_weights`."""
+    parts = chunk_weights(interaction, neighbours, fields, own=own, prepared=prepared)
+    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+
+
+def chunk_weights(
+    interaction: Any,
+    neighbours: Neighbours,
+    fields: Mapping[str, Array],
+    *,
+    own: tuple[Shape, ...] = (),
+    prepared: Sequence[Array] = (),
+) -> list[Array]:
+    """The weights of the pairs of each chunk of the pair list, (components, pairs).
 
     Args:
         interaction: gives the weights.
@@ -102,7 +115,6 @@ def pair_weights(
     """
     weights = PairWeights(interaction, neighbours, fields, own)
     numbered = list(enumerate(neighbours.chunks))
-    parts = on_threads(
+    return on_threads(
         lambda item: weights.of(item[1], prepared[item[0]] if prepared else None), numbered, neighbours.threads
     )
-    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)

@@ -30,7 +30,7 @@ def flexible_gmres(
         residual = right - times(values)
         length = norm(residual)
         if not length > tolerance or spent >= most:
-            return KrylovResult(values, spent, "fgmres")
+            return KrylovResult(values, spent, "fgmres", length <= tolerance)
         basis, steps = [residual / length], list[Vector]()
         size = min(RESTART, most - spent)
         hessenberg, rotations = np.zeros((size + 1, size)), np.zeros((size, 2))
@@ -55,7 +55,7 @@ def flexible_gmres(
         for share, step in zip(shares, steps, strict=True):
             values = values + share * step
         if not np.isfinite(values).all():
-            return KrylovResult(values, spent, "fgmres")
+            return KrylovResult(values, spent, "fgmres", False)
 
 
 def _dot(a: Vector, b: Vector) -> float:

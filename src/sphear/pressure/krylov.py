@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,6 @@ Vector = np.ndarray[Any, np.dtype[np.float64]]
 Operator = Callable[[Vector], Vector]
 
 RESTART = 50  # iterations of GMRES after which its basis is dropped: 50 vectors are as much memory as the matrix
-DRIFT = 2.0  # by which a residual from a recursion may be off without being a breakdown
 TINY = 1e-14  # of two vectors' lengths, a product of BiCGSTAB that only rounding is left of
 
 
@@ -33,23 +32,21 @@ class KrylovResult:
         values: (n,), its approximation, which need not be finite after a breakdown.
         iterations: of BiCGSTAB, each has two products by the matrix, of the others one.
         method: cg, bicgstab or gmres.
+        converged: its own residual, which may have drifted from the true one, has the length asked for.
     """
 
     values: Vector
     iterations: int
     method: str
+    converged: bool
 
 
 def product(system: PressureSystem) -> Operator:
     """A, or P A where the matrix is singular and not symmetric: see `sphear.pressure.solver`."""
-    matrix = system.matrix
-
-    def times(vector: Vector) -> Vector:
-        result: Vector = matrix @ vector
-        return result
+    times = system.rows.times
 
     def projected(vector: Vector) -> Vector:
-        result: Vector = matrix @ vector
+        result: Vector = times(vector)
         result -= np.add.reduce(result) / len(result)  # a mean, without what NumPy's asks first
         return result
 
@@ -77,7 +74,7 @@ def conjugate_gradients(
             towards = inverse(residual)
             before, rho = rho, dot(residual, towards)
             update_direction(direction, towards, rho / before)
-    return KrylovResult(values, iterations, "cg")
+    return KrylovResult(values, iterations, "cg", square <= tolerance**2)
 
 
 def bicgstab(
@@ -97,7 +94,8 @@ def bicgstab(
             break
         alpha = rho / divisor
         iterations += 1
-        if advance(values, residual, first, along, alpha) <= tolerance**2:
+        square = advance(values, residual, first, along, alpha)
+        if square <= tolerance**2:
             break
         second = inverse(residual)
         across = times(second)
@@ -109,7 +107,7 @@ def bicgstab(
             break
         direction -= omega * along
         update_direction(direction, residual, (rho / before) * (alpha / omega))
-    return KrylovResult(values, iterations, "bicgstab")
+    return KrylovResult(values, iterations, "bicgstab", square <= tolerance**2)
 
 
 def gmres(
@@ -129,7 +127,7 @@ def gmres(
         callback=norms.append,
         callback_type="pr_norm",
     )
-    return KrylovResult(values, len(norms), "gmres")
+    return KrylovResult(values, len(norms), "gmres", bool(norms) and norms[-1] <= tolerance)
 
 
 def iterate(
@@ -160,10 +158,9 @@ def iterate(
     spent = 0
     if not robust:
         run = bicgstab(times, right, start, inverse, tolerance, most)
-        remaining = right - times(run.values)
-        if run.iterations >= most or dot(remaining, remaining) <= (DRIFT * tolerance) ** 2:
+        if run.iterations >= most or run.converged:
             return run
         # it broke down; its approximation is as good a start as any unless that went wrong too
         spent, start = run.iterations, run.values if np.isfinite(run.values).all() else np.zeros(system.unknowns)
     run = gmres(times, right, start, inverse, tolerance, most)
-    return KrylovResult(run.values, spent + run.iterations, run.method)
+    return replace(run, iterations=spent + run.iterations)

@@ -12,7 +12,8 @@ from sphear.errors import SphearError
 from sphear.pressure.failure import PressureFailure
 from sphear.pressure.krylov import KrylovResult, Vector, iterate
 from sphear.pressure.preconditioners import PRECONDITIONERS, AlgebraicMultigrid, Preconditioner, read_preconditioner
-from sphear.pressure.system import ROUNDING, PressureSystem
+from sphear.pressure.rows import ROUNDING
+from sphear.pressure.system import PressureSystem
 from sphear.pressure.vectors import norm
 
 REPEATS = 3  # runs of a method, each from the last one's result: recursions for residuals drift from the residual
@@ -96,15 +97,14 @@ def solve(
     balanced, guess = balanced / length, None if guess is None else guess / length
     if system.singular:  # where little is left of a large constant, so is rounding of it: no product has that
         balanced -= balanced.mean()
-    attempt = _attempt(system, balanced, guess, first, tolerance, most, robust=False)
-    (residual, mean), retried = _residual(system, balanced, attempt.values), False
+    attempt, residual, mean = _attempt(system, balanced, guess, first, tolerance, most, robust=False)
+    retried = False
     iterations, used = attempt.iterations, first
     if not residual <= SLACK * tolerance:
         retried, used = True, _safer(first)
         most = MOST_AGAIN[used.name]
         system = replace(system, symmetric=False)  # which nothing that follows relies upon any more
-        attempt = _attempt(system, balanced, None, used, tolerance, most, robust=True)
-        residual, mean = _residual(system, balanced, attempt.values)
+        attempt, residual, mean = _attempt(system, balanced, None, used, tolerance, most, robust=True)
         iterations += attempt.iterations
         if not residual <= SLACK * tolerance:
             raise PressureFailure(iterations, residual, tolerance, _reason(system, first.name, used.name))
@@ -126,23 +126,25 @@ def _attempt(
     most: int,
     *,
     robust: bool,
-) -> KrylovResult:
+) -> tuple[KrylovResult, float, float]:
+    """What a method comes to, its residual's length, and the mean of A p."""
     inverse = preconditioner.build(system)
     iterations = 0
     for _ in range(REPEATS):
         with np.errstate(all="ignore"):  # what grows beyond all bounds shows in the result
             run = iterate(system, right, guess, inverse, tolerance, most - iterations, robust=robust)
+            residual, mean = _residual(system, right, run.values)
         iterations += run.iterations
         finite = bool(np.isfinite(run.values).all())
-        if not finite or iterations >= most or _residual(system, right, run.values)[0] <= SLACK * tolerance:
+        if not finite or iterations >= most or residual <= SLACK * tolerance:
             break
         guess = run.values
-    return KrylovResult(run.values, iterations, run.method)
+    return replace(run, iterations=iterations), residual, mean
 
 
 def _residual(system: PressureSystem, right: Vector, values: Vector) -> tuple[float, float]:
     """||b - A p||, without its mean where the system is singular and not symmetric; and the mean of A p."""
-    along: Vector = system.matrix @ values
+    along: Vector = system.rows.times(values)
     mean = float(along.mean())
     return norm(right - (along - mean if system.singular and not system.symmetric else along)), mean
 
@@ -153,8 +155,8 @@ def _safer(preconditioner: Preconditioner) -> Preconditioner:
 
 
 def _reason(system: PressureSystem, first: str, second: str) -> str:
-    parts, part = connected_components(system.matrix, directed=False)
-    matrix = system.matrix
+    matrix = system.rows.assembled()
+    parts, part = connected_components(matrix, directed=False)
     ones = np.ones(system.unknowns)
     given = np.abs(matrix @ ones) > ROUNDING * (abs(matrix) @ ones)
     fixed = part[:1] if system.singular else np.unique(part[given])  # one part's is fixed by the mean

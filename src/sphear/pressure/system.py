@@ -3,46 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csr_array, csr_matrix
 
-from sphear.engine.cache import compiled
 from sphear.errors import SphearError
+from sphear.pressure.rows import ALONE, FINE, NOT_FINITE, NOT_NEUTRAL, WRONG_SIGN, CompressedRows, Rows
 
 Array = np.ndarray[Any, Any]
-Matrix = csr_matrix[Any] | csr_array[Any, tuple[int, int]]
-
-ROUNDING = 1e-8  # of a row's sum, relative to the sum of its sizes; a row has some 10 to 100 entries
-
-FINE, NOT_FINITE, ALONE, WRONG_SIGN, NOT_NEUTRAL = range(5)
-
-
-@compiled
-def first_fault(first, column, entry, singular, rounding):  # type: ignore[no-untyped-def]
-    """The first row with a fault, which fault it is, and whether all rows before it sum to zero."""
-    neutral = True
-    for row in range(len(first) - 1):
-        diagonal, total, size, neighbours = 0.0, 0.0, 0.0, 0
-        for k in range(first[row], first[row + 1]):
-            total += entry[k]
-            size += abs(entry[k])
-            if column[k] == row:
-                diagonal += entry[k]
-            elif entry[k] != 0.0:
-                neighbours += 1
-        if not np.isfinite(size):
-            return row, NOT_FINITE, neutral
-        if neighbours == 0 and (singular or diagonal == 0.0):
-            return row, ALONE, neutral
-        if diagonal >= 0.0:
-            return row, WRONG_SIGN, neutral
-        if abs(total) > rounding * size:
-            neutral = False
-            if singular:
-                return row, NOT_NEUTRAL, neutral
-    return len(first) - 1, FINE, neutral
 
 
 @dataclass(frozen=True)
@@ -55,7 +24,8 @@ class PressureSystem:
     surface) are no unknowns: their w_ij stays in the diagonal of their neighbours, their w_ij p_j is in b.
 
     Args:
-        matrix: (n, n), 1 / length^2 times whatever the equation divides by (nothing, or a density).
+        matrix: (n, n), 1 / length^2 times whatever the equation divides by (nothing, or a density): a sparse matrix,
+            or `Rows` that are never put together.
         positions: (n, d), of the unknowns, in units of length.
         lower: (d,), the lower corner of the box around the fluid; walls are at its sides, or it is periodic.
         upper: (d,), its upper corner.
@@ -81,7 +51,7 @@ class PressureSystem:
         array([-1., -1., -1.])
     """
 
-    matrix: Matrix
+    matrix: Any
     positions: Array
     lower: tuple[float, ...]
     upper: tuple[float, ...]
@@ -96,8 +66,7 @@ class PressureSystem:
             object.__setattr__(self, corner, tuple(map(float, getattr(self, corner))))
         object.__setattr__(self, "periodic", tuple(map(bool, self.periodic)))
         self._check_sizes()
-        matrix = self.matrix
-        row, fault, neutral = first_fault(matrix.indptr, matrix.indices, matrix.data, self.singular, ROUNDING)
+        row, fault, neutral = self.rows.first_fault(self.singular)
         if fault != FINE:
             where = f"particle {row} at ({', '.join(f'{x:.6g}' for x in self.positions[row])})"
             raise SphearError(
@@ -114,6 +83,13 @@ class PressureSystem:
                 "the pressure equation fixes no pressure anywhere, since all its rows sum to zero: it must be marked "
                 "as singular"
             )
+
+    @cached_property
+    def rows(self) -> Rows:
+        """The matrix as solvers ask for it."""
+        matrix: Any = self.matrix
+        rows: Rows = matrix if isinstance(matrix, Rows) else CompressedRows(matrix)
+        return rows
 
     @property
     def unknowns(self) -> int:

@@ -92,22 +92,17 @@ class SFDI(WallModel):
         behind[walls.on_wall :] += jump
         return behind
 
-    def wall_equations(
-        self, walls: Walls, matrix: csr_array, positions: Array, fluid: Array, column: Array
-    ) -> tuple[csr_array, Array]:
-        """The rows of the particles on walls below: n . grad p, over the spacing, so that all rows are of one size."""
+    def own_equations(self, walls: Walls, fluid: Array, unknown: Array) -> csr_array:
+        """(S, N + S), n . grad p, over the spacing, so that all rows are of one size."""
         import numpy as np
-        from scipy.sparse import csr_array, vstack
+        from scipy.sparse import csr_array
 
         count, on = len(fluid), walls.on_wall
-        if not on:
-            return matrix, positions
-        derivative = csr_array(walls.normal_derivatives(fluid, column[: count + on], count + on) / walls.spacing)
+        derivative = csr_array(walls.normal_derivatives(fluid, unknown[: count + on], count + on) / walls.spacing)
         total: Array = np.asarray(derivative.sum(axis=1)).ravel()
         if (wrong := total <= 0.0).any():  # in a narrow corner the plane may be no plane: a mean will do
             listed = np.repeat(wrong, np.diff(derivative.indptr))
             derivative.data[listed] = np.abs(derivative.data[listed])
             total = np.asarray(derivative.sum(axis=1)).ravel()
         own = csr_array((-total, np.arange(count, count + on), np.arange(on + 1)), shape=(on, count + on))
-        whole = vstack((matrix, derivative + own), format="csr")
-        return csr_array(whole), np.concatenate((positions, walls.dummies.positions[:on]))
+        return csr_array(derivative + own)

@@ -52,7 +52,7 @@ class AlgebraicMultigrid(Preconditioner):
         import pyamg
         from scipy.sparse import csr_matrix  # takes long: preconditioners are listed without it
 
-        matrix = csr_matrix(-system.matrix)  # pyamg takes no csr_array, and positive definite matrices
+        matrix = csr_matrix(-system.rows.assembled())  # pyamg takes no csr_array, and positive definite matrices
         matrix.indices, matrix.indptr = matrix.indices.astype(np.int32), matrix.indptr.astype(np.int32)
         cycle = pyamg.ruge_stuben_solver(matrix, max_coarse=100).aspreconditioner(cycle="V")
 

@@ -30,5 +30,5 @@ class Jacobi(Preconditioner):
 
     def build(self, system: PressureSystem) -> Callable[[Vector], Vector]:
         """Divide by the diagonal."""
-        inverse = 1.0 / system.matrix.diagonal()
+        inverse = 1.0 / system.rows.diagonal()
         return lambda vector: inverse * vector

@@ -147,7 +147,8 @@ class MultigridPoisson:
         last = number + 1 == len(self.levels)
         below = len(self.coarsest) if last else len(self.levels[number + 1].source)
         coarse = self._cycle(number + 1, _deposited(level.nodes, level.weights, level.source, below))
-        values: Array = interpolate_and_add(level.nodes, level.weights, coarse, level.ones, level.values)
+        values = np.empty_like(level.values)
+        interpolate_and_add(level.nodes, level.weights, coarse, level.ones, level.values, values)
         relax(*equation, values, True)
         return values
 

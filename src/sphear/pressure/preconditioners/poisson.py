@@ -23,12 +23,18 @@ class BoxPoisson:
         size: (d,), their distance along each axis, in units of length.
         periodic: (d,), whether an axis repeats.
         factor: multiplies the result.
+        threads: that transforms are computed on.
     """
 
     def __init__(
-        self, counts: tuple[int, ...], size: tuple[float, ...], periodic: tuple[bool, ...], factor: float
+        self,
+        counts: tuple[int, ...],
+        size: tuple[float, ...],
+        periodic: tuple[bool, ...],
+        factor: float,
+        threads: int = 1,
     ) -> None:
-        self.counts = counts
+        self.counts, self.threads = counts, threads
         self.walls = tuple(axis for axis, flag in enumerate(periodic) if not flag)
         self.repeating = tuple(axis for axis, flag in enumerate(periodic) if flag)
         self.inverse = factor * _inverse_eigenvalues(counts, size, periodic)
@@ -37,15 +43,15 @@ class BoxPoisson:
         """The solution (nodes,) for a source (nodes,), both flat; the source may be written over."""
         field: Any = grid.reshape(self.counts)
         if self.walls:
-            field = dctn(field, axes=self.walls, norm="ortho", overwrite_x=True)
+            field = dctn(field, axes=self.walls, norm="ortho", overwrite_x=True, workers=self.threads)
         if self.repeating:
-            field = rfftn(field, axes=self.repeating, norm="ortho", overwrite_x=True)
+            field = rfftn(field, axes=self.repeating, norm="ortho", overwrite_x=True, workers=self.threads)
         field *= self.inverse
         if self.repeating:
             lengths = [self.counts[axis] for axis in self.repeating]
-            field = irfftn(field, s=lengths, axes=self.repeating, norm="ortho", overwrite_x=True)
+            field = irfftn(field, s=lengths, axes=self.repeating, norm="ortho", overwrite_x=True, workers=self.threads)
         if self.walls:
-            field = idctn(field, axes=self.walls, norm="ortho", overwrite_x=True)
+            field = idctn(field, axes=self.walls, norm="ortho", overwrite_x=True, workers=self.threads)
         flat: Array = field.reshape(-1)
         return flat
 

@@ -6,9 +6,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from sphear.pressure import Grid, PressureSystem
+from sphear.pressure import Grid
 
 if TYPE_CHECKING:
     from sphear.schemes.incompressible.coupled_step import CoupledStep
@@ -61,21 +60,16 @@ class BlockPreconditioner:
         factor = self.of.step.share * self.of.step.length * self.viscosity
         if not factor:
             return None
-        equation = self.of.equation
-        matrix = self.of.how.pressures.assembly.velocity_matrix(equation, self.of.operators.interpolation)
-        count = matrix.shape[0]
-        shifted = csr_array(matrix.copy())
-        shifted.data[shifted.indptr[:count]] -= 1.0 / factor  # the diagonal comes first
-        of = equation.system
-        system = PressureSystem(
-            shifted, of.positions[:count], of.lower, of.upper, of.periodic, of.spacing, of.symmetric, False
+        of = self.of
+        system = of.how.pressures.assembly.velocity_system(
+            of.operators.particles, of.operators.interpolation, 1.0 / factor
         )
         inverse = Grid().build(system)
 
         def apply(vector: Array) -> Array:
             result: Array = inverse(vector) / -factor
             for _ in range(SWEEPS):
-                result = result + inverse(vector + factor * (shifted @ result)) / -factor
+                result = result + inverse(vector + factor * system.rows.times(result)) / -factor
             return result
 
         return apply

@@ -142,7 +142,7 @@ class CoupledStep:
         if kept < 1.0:
             field = field + (1.0 - kept) * operators.divergent(w, step.moved)
         divergence = operators.divergence(field) - self.source
-        laplacian: Array = self.equation.system.matrix @ p
+        laplacian: Array = self.equation.rows.times(p)
         if len(jump):
             laplacian[:count] += self.coupling @ jump
         off = self.h * (np.zeros(len(p)) - self.tau / self.density * laplacian)

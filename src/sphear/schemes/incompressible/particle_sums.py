@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from sphear.engine.formula import Interaction, Shape
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
-from sphear.engine.weights import pair_weights
+from sphear.engine.weights import chunk_weights, pair_weights
 from sphear.kernels import Kernel
 from sphear.neighbours import Chunk, Domain, Neighbours
 from sphear.neighbours.sparse import sparse_rows
@@ -109,6 +109,17 @@ class ParticleSums:
 
         on_threads(add, list(enumerate(self.neighbours.chunks)), self.neighbours.threads)
         return out
+
+    def weights(self, interaction: Any, preparation: Any = None) -> list[Array]:
+        """The weights of an interaction's pairs, an array (pairs and a few more,) a chunk of the pair list.
+
+        Args:
+            interaction: gives one weight a pair.
+            preparation: what it knows of each of the N particles.
+        """
+        own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
+        parts = chunk_weights(interaction, self.neighbours, self.fields, own=own, prepared=numbers)
+        return [part[0] for part in parts]
 
     def matrix(
         self, interaction: Any, preparation: Any = None, column: Array | None = None, columns: int = 0

@@ -13,7 +13,7 @@ from sphear.interactions.free_surface import LaplacianMoments
 from sphear.interactions.laplacian_weights import LaplacianWeights
 from sphear.kernels import Kernel
 from sphear.pressure import PressureSystem
-from sphear.pressure.assembly import eliminated
+from sphear.pressure.pair_rows import PairRows, WallRows
 from sphear.schemes.incompressible.free_surface import Surface
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.surface_pressure import missing_weights
@@ -27,17 +27,13 @@ class PressureEquation(NamedTuple):
     """A pressure equation, its unknowns in the order of the cells.
 
     system: the matrix.
-    known: what the walls' normal gradients add to the matrix's side.
+    rows: it, as a solver has it.
     order: (N,), the particle of each row; particles on walls follow.
-    weights: (N, unknowns + W), of pairs, walls not yet eliminated.
-    mirrored: (W, unknowns), the pressures behind walls; None where they are left out.
     """
 
     system: PressureSystem
-    known: Array
+    rows: PairRows
     order: Array
-    weights: csr_array
-    mirrored: csr_array | None
 
 
 class PressureAssembly:
@@ -87,69 +83,86 @@ class PressureAssembly:
             surface: the free surface; None without one.
         """
         count, order = particles.count, particles.neighbours.rows
-        unknowns = count + self.on_wall
-        column = np.arange(particles.total, dtype=np.int32)
-        column[order] = np.arange(count, dtype=np.int32)
-        weights = particles.matrix(self.weights, self.preparation, column, particles.total)
-        walls, mirrored = self.walls, None
-        if walls is not None and interpolation is not None:
-            mirrored = walls.model.pressure_weights(walls, interpolation, column, unknowns)
-        fixed = np.zeros(unknowns, np.bool_)
-        outside = np.zeros(count)
+        walls, unknown = self.walls, self._unknown(particles)
+        outside, fixed = np.zeros(count), np.zeros(count + self.on_wall, np.bool_)
         if surface is not None:
-            outside = missing_weights(particles, surface, self.moments, self.preparation)
+            outside = missing_weights(particles, surface, self.moments, self.preparation)[order]
             fixed[:count] = surface.alone[order]
-        matrix, known = eliminated(weights, mirrored, jump, fixed, unknowns)
-        matrix.data[matrix.indptr[:count]] += outside[order]  # the diagonal comes first
-        positions = particles.positions[order]
-        if walls is not None:
-            matrix, positions = walls.model.wall_equations(
-                walls, matrix, positions, particles.positions[:count], column
-            )
-            known = np.concatenate((known, np.zeros(self.on_wall)))
-        system = PressureSystem(
-            matrix,
-            positions,
-            self.box.lower,
-            self.box.upper,
-            self.periodic,
-            self.spacing,
-            self.symmetric,
-            not (fixed.any() or outside.any()),
+        behind = self._behind(interpolation, unknown, count)
+        if not len(jump):
+            jump = np.zeros(len(behind.starts) - 1)
+        positions, others = particles.positions[order], None
+        if walls is not None and self.on_wall:
+            others = walls.model.own_equations(walls, particles.positions[:count], unknown)
+            positions = np.concatenate((positions, walls.dummies.positions[: self.on_wall]))
+        rows = self._rows(particles, unknown, behind, jump=jump, fixed=fixed, outside=outside, others=others)
+        neutral = not (fixed.any() or outside.any())
+        return PressureEquation(self._system(rows, positions, neutral), rows, order)
+
+    def _unknown(self, particles: ParticleSums) -> Array:
+        """(N + W,), the unknown of each particle, that of wall particles without one after all of them."""
+        unknown = np.arange(particles.total, dtype=np.int32)
+        unknown[particles.neighbours.rows] = np.arange(particles.count, dtype=np.int32)
+        return unknown
+
+    def _behind(self, interpolation: WallInterpolation | None, unknown: Array, count: int) -> WallRows:
+        """The pressures of the W - S wall particles without one of their own, by the unknowns.
+
+        Rows are empty where the wall model leaves walls out.
+        """
+        walls, unknowns = self.walls, count + self.on_wall
+        if walls is not None and interpolation is not None:
+            mirrored = walls.model.pressure_weights(walls, interpolation, unknown, unknowns)
+            if mirrored is not None:
+                return WallRows(mirrored.indptr, mirrored.indices, mirrored.data)
+        return WallRows(np.zeros(len(unknown) - unknowns + 1, np.int32), np.zeros(0, np.int32), np.zeros(0))
+
+    def _rows(self, particles: ParticleSums, unknown: Array, behind: WallRows, **others: Any) -> PairRows:
+        """The Laplacian as rows over the pair list; `others` are further arguments of `PairRows`."""
+        neighbours = particles.neighbours
+        return PairRows(
+            neighbours.chunks,
+            particles.weights(self.weights, self.preparation),
+            unknown[neighbours.source],
+            behind,
+            threads=neighbours.threads,
+            **others,
         )
-        return PressureEquation(system, known, order, weights, mirrored)
+
+    def _system(self, rows: PairRows, positions: Array, singular: bool) -> PressureSystem:
+        box = self.box
+        return PressureSystem(
+            rows, positions, box.lower, box.upper, box.periodic, self.spacing, self.symmetric, singular
+        )
 
     def wall_coupling(self, equation: PressureEquation) -> csr_array:
-        """(N, W), what the jumps of pressures behind walls add to the matrix's side of an equation."""
-        count, behind = equation.weights.shape[0], equation.mirrored
-        if behind is None:
-            return csr_array((count, 0))
-        coupling = csr_array(equation.weights[:, equation.weights.shape[1] - behind.shape[0] :])
-        seen = np.diff(behind.indptr) > 0
-        # a row whose walls have been left out, as in a narrow corner, knows of no jump
-        fixed, ones = np.zeros(behind.shape[1], np.bool_), np.ones(behind.shape[0])
-        used = eliminated(equation.weights, behind, ones, fixed, behind.shape[1])[1] != 0.0
-        rows = np.repeat(used, np.diff(coupling.indptr))
-        coupling.data = np.where(rows & seen[coupling.indices], coupling.data, 0.0)
+        """(N, W - S), what the jumps of pressures behind walls add to the matrix's side of an equation."""
+        coupling = csr_array(equation.rows.by_pairs()[:, equation.rows.unknowns :])
         coupling.eliminate_zeros()
         return coupling
 
-    def velocity_matrix(self, equation: PressureEquation, interpolation: WallInterpolation | None) -> csr_array:
-        """(N, N), the same Laplacian of a velocity that walls hold, in the order of the equation."""
-        count = equation.weights.shape[0]
-        column = np.empty(count, np.int32)
-        column[equation.order] = np.arange(count, dtype=np.int32)
-        opposite = None
+    def velocity_system(
+        self, particles: ParticleSums, interpolation: WallInterpolation | None, shift: float
+    ) -> PressureSystem:
+        """The same Laplacian of a velocity that walls hold, less a number on its diagonal, in the order of the cells.
+
+        Args:
+            particles: of fluid and walls.
+            interpolation: the fields of wall particles from the fluid; None without walls.
+            shift: the number.
+        """
+        count, unknown = particles.count, self._unknown(particles)
+        behind = particles.total - count
+        opposite = WallRows(np.zeros(behind + 1, np.int32), np.zeros(0, np.int32), np.zeros(0))
         if interpolation is not None:
             mirrored = interpolation.mirrored
-            opposite = csr_array(
-                (-mirrored.data, column[mirrored.indices], mirrored.indptr), shape=(mirrored.shape[0], count)
-            )
-        matrix, _ = eliminated(
-            equation.weights,
+            opposite = WallRows(mirrored.indptr, unknown[mirrored.indices], -mirrored.data)
+        rows = self._rows(
+            particles,
+            unknown,
             opposite,
-            np.zeros(0 if opposite is None else opposite.shape[0]),
-            np.zeros(count, np.bool_),
-            count,
+            jump=np.zeros(behind),
+            fixed=np.zeros(count, np.bool_),
+            outside=np.full(count, -shift),
         )
-        return matrix
+        return self._system(rows, particles.positions[particles.neighbours.rows], False)

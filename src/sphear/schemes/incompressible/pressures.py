@@ -106,7 +106,7 @@ class Pressures:
             source[found.alone] = 0.0
         jump = self.assembly.jump(accelerations, self.density, operators.way())
         equation = self.assembly.equation(operators.particles, operators.interpolation, jump, found)
-        right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.known
+        right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.rows.known
         guess = np.concatenate((self.fluid[equation.order], self.on_walls))
         floor = self._rounding(operators, velocities, accelerations, time_step) * math.sqrt(len(right))
         solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance, floor=floor)

@@ -1,7 +1,8 @@
-"""The matrix of the pressure equation against dense arithmetic."""
+"""The matrix of the pressure equation by its pair list against dense arithmetic."""
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csr_array, random_array
 
-from sphear.pressure.assembly import eliminated
+from sphear.neighbours import Chunk
+from sphear.pressure.pair_rows import PairRows, WallRows
+from sphear.pressure.rows import CompressedRows
 
 Array = np.ndarray[Any, Any]
 
@@ -41,6 +44,23 @@ def narrow(matrix: Any) -> csr_array:
     return rows
 
 
+def paired(weights: csr_array, mirrored: csr_array | None, jump: Array, fixed: Array, parts: int = 1) -> PairRows:
+    """The rows of weights whose columns are the entries of the pair list, on as many threads as it has parts."""
+    ends = np.linspace(0, weights.shape[0], parts + 1).astype(int)
+    chunks, numbers = [], []
+    for begin, end in pairwise(ends.tolist()):
+        first = weights.indptr[begin : end + 1].astype(np.int64)
+        chunks.append(Chunk(begin, end, first - first[0], weights.indices[first[0] : first[-1]].copy()))
+        numbers.append(weights.data[first[0] : first[-1]].astype(np.float64))
+    unknown = np.arange(weights.shape[1], dtype=np.int32)
+    if mirrored is None:
+        behind = weights.shape[1] - len(fixed)
+        walls, jump = WallRows(np.zeros(behind + 1), np.zeros(0), np.zeros(0)), np.zeros(behind)
+    else:
+        walls = WallRows(mirrored.indptr, mirrored.indices, mirrored.data)
+    return PairRows(chunks, numbers, unknown, walls, jump, fixed, np.zeros(weights.shape[0]), threads=parts)
+
+
 def draw(seed: int, unknowns: int, walls: int, share: float) -> tuple[csr_array, csr_array, Array, Array]:
     generator = np.random.default_rng(seed)
     weights = random_array((unknowns, unknowns + walls), density=0.3, rng=generator).tolil()
@@ -60,31 +80,48 @@ def draw(seed: int, unknowns: int, walls: int, share: float) -> tuple[csr_array,
 )
 def test_it_is_what_dense_arithmetic_gives(seed: int, unknowns: int, walls: int, share: float, natural: bool) -> None:
     weights, mirrored, jump, fixed = draw(seed, unknowns, walls, share)
+    rows = paired(weights, None if natural else mirrored, jump, fixed)
     given_jump = np.zeros(0) if natural else jump
-    matrix, known = eliminated(weights, None if natural else mirrored, given_jump, fixed, unknowns)
     expected, right = dense(weights.toarray(), None if natural else mirrored.toarray(), given_jump, fixed, unknowns)
-    np.testing.assert_allclose(matrix.toarray(), expected, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(known, right, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows.assembled().toarray(), expected, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows.known, right, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows.diagonal(), expected.diagonal(), rtol=0, atol=1e-12)
+    vector = np.random.default_rng(seed).random(unknowns)
+    np.testing.assert_allclose(rows.times(vector), expected @ vector, rtol=0, atol=1e-12)
 
 
-def test_each_entry_is_written_once_and_the_diagonal_first() -> None:
+def test_the_numbers_are_the_same_on_any_number_of_threads() -> None:
     weights, mirrored, jump, fixed = draw(3, 20, 10, 0.2)
-    matrix, _ = eliminated(weights, mirrored, jump, fixed, 20)
-    for row in range(20):
-        columns = matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]]
-        assert columns[0] == row
-        assert len(set(columns.tolist())) == len(columns)
+    one, three = paired(weights, mirrored, jump, fixed), paired(weights, mirrored, jump, fixed, 3)
+    vector = np.random.default_rng(1).random(20)
+    np.testing.assert_array_equal(one.times(vector), three.times(vector))
+    np.testing.assert_array_equal(one.diagonal(), three.diagonal())
+    np.testing.assert_array_equal(one.known, three.known)
+
+
+@given(seed=st.integers(0, 99), step=st.integers(1, 9))
+def test_faults_and_coefficient_are_those_of_the_assembled_matrix(seed: int, step: int) -> None:
+    weights, mirrored, jump, fixed = draw(seed, 20, 10, 0.0)
+    total = np.asarray(mirrored.sum(axis=1))
+    shares = narrow(mirrored.toarray() / np.where(total > 0, total, 1.0)[:, None])
+    rows = paired(weights, shares, jump, fixed, 2)
+    positions, periods = np.random.default_rng(seed).random((20, 2)), np.array([0.0, 1.0])
+    whole = CompressedRows(rows.assembled())
+    assert rows.coefficient(positions, periods, step) == pytest.approx(whole.coefficient(positions, periods, step))
+    for singular in (True, False):
+        assert rows.first_fault(singular) == whole.first_fault(singular)
 
 
 @pytest.mark.parametrize("walls", [1, 40])
-def test_there_is_room_for_walls_that_see_much_fluid(walls: int) -> None:
+def test_walls_may_see_much_fluid(walls: int) -> None:
     """Each row has one neighbour behind a wall, which stands for all the fluid: far more than the pair list has."""
     unknowns = 60
     places = np.arange(unknowns), unknowns + np.arange(unknowns) % walls
     behind = narrow(csr_array((np.ones(unknowns), places), shape=(unknowns, unknowns + walls)))
     mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) * 0.8 + 0.1)
     jump, fixed = np.arange(walls, dtype=float), np.zeros(unknowns, bool)
-    matrix, known = eliminated(behind, mirrored, jump, fixed, unknowns)
+    rows = paired(behind, mirrored, jump, fixed)
+    matrix, known = rows.assembled(), rows.known
     expected, right = dense(behind.toarray(), mirrored.toarray(), jump, fixed, unknowns)
     assert matrix.nnz == unknowns**2
     np.testing.assert_allclose(matrix.toarray(), expected, atol=1e-12)
@@ -95,7 +132,7 @@ def test_rows_sum_to_zero_where_walls_continue_a_constant() -> None:
     weights, mirrored, jump, fixed = draw(5, 25, 12, 0.0)
     total = np.asarray(mirrored.sum(axis=1))
     shares = narrow(mirrored.toarray() / np.where(total > 0, total, 1.0)[:, None])
-    matrix, _ = eliminated(weights, shares, jump, fixed, 25)
+    matrix = paired(weights, shares, jump, fixed).assembled()
     np.testing.assert_allclose(matrix.sum(axis=1), 0.0, atol=1e-13)
 
 
@@ -103,7 +140,8 @@ def test_a_wall_whose_fluid_weighs_nothing_is_left_out() -> None:
     """As where a particle is only just within the support of a kernel: rows must sum to zero all the same."""
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 4.0]]))
     mirrored = csr_array((np.zeros(1), np.zeros(1, np.int32), np.array([0, 1], np.int32)), shape=(1, 2))
-    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    rows = paired(weights, mirrored, np.array([5.0]), np.zeros(2, bool))
+    matrix, known = rows.assembled(), rows.known
     np.testing.assert_array_equal(matrix.toarray(), [[-2.0, 2.0], [2.0, -2.0]])
     assert not known.any()
 
@@ -112,18 +150,15 @@ def test_a_row_that_walls_would_give_a_positive_diagonal_is_without_them() -> No
     """As in a narrow corner, whose mirrored pressures are mostly the particle's own; other rows keep theirs."""
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 3.0]]))
     mirrored = narrow(np.array([[1.9, -0.9]]))
-    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    rows = paired(weights, mirrored, np.array([5.0]), np.zeros(2, bool))
+    matrix, known = rows.assembled(), rows.known
     np.testing.assert_allclose(matrix.toarray(), [[-2.0, 2.0], [2.0 + 3.0 * 1.9, -5.0 - 3.0 * 0.9]], atol=1e-14)
     np.testing.assert_array_equal(known, [0.0, 15.0])
 
 
 def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:
-    matrix, known = eliminated(
-        csr_array((np.zeros(0), np.zeros(0, np.int32), np.zeros(3, np.int32)), shape=(2, 2)),
-        None,
-        np.zeros(0),
-        np.array([True, True]),
-        2,
-    )
+    nothing = csr_array((np.zeros(0), np.zeros(0, np.int32), np.zeros(3, np.int32)), shape=(2, 2))
+    rows = paired(nothing, None, np.zeros(0), np.array([True, True]))
+    matrix, known = rows.assembled(), rows.known
     np.testing.assert_array_equal(matrix.toarray(), [[-1.0, 0.0], [0.0, -1.0]])
     assert not known.any()
