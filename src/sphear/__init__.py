@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         Rectangle as Rectangle,
         Shape as Shape,
     )
-    from sphear.cases.flow import FlowRun as FlowRun, flow as flow
+    from sphear.cases.flow import CaseRun as CaseRun, flow as flow
     from sphear.cases.measured_card import MeasuredCard as MeasuredCard, measured_card as measured_card
     from sphear.cases.patch_test import PatchTest as PatchTest
     from sphear.corrections import (
@@ -108,13 +108,13 @@ if TYPE_CHECKING:
     )
     from sphear.schemes.base import FlowFailure as FlowFailure
     from sphear.schemes.incompressible.settings import Incompressible as Incompressible
-    from sphear.schemes.integrators import (
+    from sphear.schemes.weakly_compressible.integrators import (
         INTEGRATORS as INTEGRATORS,
         Integrator as Integrator,
         KickDriftKick as KickDriftKick,
         Midpoint as Midpoint,
     )
-    from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
+    from sphear.schemes.weakly_compressible.settings import WeaklyCompressible as WeaklyCompressible
     from sphear.shifting import (
         SHIFTING as SHIFTING,
         Lind as Lind,
@@ -165,7 +165,7 @@ _HOMES = {
         "Natural", "WallModel",
     ),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
-    "sphear.cases.flow": ("FlowRun", "flow"),
+    "sphear.cases.flow": ("CaseRun", "flow"),
     "sphear.cases.measured_card": ("MeasuredCard", "measured_card"),
     "sphear.cases.patch_test": ("PatchTest",),
     "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
@@ -187,8 +187,8 @@ _HOMES = {
     ),
     "sphear.schemes.base": ("FlowFailure",),
     "sphear.schemes.incompressible.settings": ("Incompressible",),
-    "sphear.schemes.integrators": ("INTEGRATORS", "Integrator", "KickDriftKick", "Midpoint"),
-    "sphear.schemes.settings": ("WeaklyCompressible",),
+    "sphear.schemes.weakly_compressible.integrators": ("INTEGRATORS", "Integrator", "KickDriftKick", "Midpoint"),
+    "sphear.schemes.weakly_compressible.settings": ("WeaklyCompressible",),
     "sphear.shifting": ("SHIFTING", "Lind", "NoShifting", "ShiftingMethod", "Xu"),
     "sphear.simulation.fluid": ("Fluid",),
     "sphear.simulation.observers": (

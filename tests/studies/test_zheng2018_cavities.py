@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.references.cavity import cavity_cylinder, ghia, mac
 from sphear.results import OutputFolder
@@ -304,7 +304,7 @@ def test_a_result_of_other_defaults_is_computed_again(own_store: Path) -> None:
 def test_an_interrupted_run_goes_on_where_it_was_saved(own_store: Path) -> None:
     run = Wanted("cavity", "morris", 10, until=0.4).run()
     straight = compute_run(run.case, run.given)
-    half = FlowRun(FLOWS["cavity"], run.settings.model_copy(update={"until": 0.2, "threads": 1})).run()
+    half = CaseRun(FLOWS["cavity"], run.settings.model_copy(update={"until": 0.2, "threads": 1})).run()
     saved = own_store / "zheng2018" / f"{run.key}.npz"
     half.save(saved)
     on = compute_run(run.case, run.given)
@@ -313,7 +313,7 @@ def test_an_interrupted_run_goes_on_where_it_was_saved(own_store: Path) -> None:
     np.testing.assert_allclose(on["profiles"]["u"], straight["profiles"]["u"], rtol=0, atol=1e-9)
     assert [row["steps"] for row in on["history"][:2]] == [row["steps"] for row in half.history[:2]]
     other = half.settings.model_copy(update={"seed": 5})
-    FlowRun(FLOWS["cavity"], other).run().save(saved)  # of other settings: not gone on with
+    CaseRun(FLOWS["cavity"], other).run().save(saved)  # of other settings: not gone on with
     assert compute_run(run.case, run.given)["metrics"] == straight["metrics"]
 
 

@@ -13,7 +13,7 @@ from sphear.cli.explained import of_settings, short
 from sphear.schemes.common import RunSettings, Scheme
 from sphear.schemes.incompressible.settings import Incompressible, IncompressibleSettings
 from sphear.schemes.presets import BY_SCHEME
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

@@ -17,7 +17,7 @@ from sphear.kernels import KERNELS, Kernel
 from sphear.names import Registry, unknown
 from sphear.operators import arguments
 from sphear.pressure import PRECONDITIONERS, Preconditioner
-from sphear.schemes.integrators import INTEGRATORS, Integrator
+from sphear.schemes.weakly_compressible.integrators import INTEGRATORS, Integrator
 from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, ViscousTerm
 

@@ -11,7 +11,7 @@ from sphear.boundaries import Box
 from sphear.boundaries.shapes import Shape
 from sphear.boundaries.shapes.fastest import fastest
 from sphear.neighbours import Domain
-from sphear.schemes.base import FlowInTime
+from sphear.schemes.base import Flow
 from sphear.schemes.energy import EnergyBudget, greatest_speed, kinetic_energy
 from sphear.schemes.problem import Problem
 
@@ -49,7 +49,7 @@ class Watch:
         round_ = any(periodic and force for periodic, force in zip(problem.periodic, self.force, strict=True))
         return None if round_ else float((problem.positions @ self.force).sum())
 
-    def found(self, flow: FlowInTime) -> str | None:
+    def found(self, flow: Flow) -> str | None:
         """Find what is wrong with a flow, in a sentence without its end; None where nothing is.
 
         - Fluid that no force drives is not faster than 1.25 times the fastest wall or particle at the start.
@@ -75,7 +75,7 @@ class Watch:
             return f"the discretisation has made {created:.2g} of the energy that was there and turned over"
         return None
 
-    def _grown(self, flow: FlowInTime) -> float:
+    def _grown(self, flow: Flow) -> float:
         """Kinetic energy and that in a constant force, over what they were at the start."""
         assert self.heights is not None
         given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from sphear.progress import no_progress
-from sphear.schemes.base import FlowFailure, FlowInTime
+from sphear.schemes.base import Flow, FlowFailure
 from sphear.schemes.watch import LOST, Watch, unresolved
 from sphear.simulation.observers import Observer
 from sphear.simulation.pace import Copies, Savings, Slices
@@ -47,7 +47,7 @@ class Run:
     """
 
     def __init__(
-        self, flow: FlowInTime, watch: Watch, observers: Sequence[Observer], unit: float = 1.0, time_name: str = "t"
+        self, flow: Flow, watch: Watch, observers: Sequence[Observer], unit: float = 1.0, time_name: str = "t"
     ) -> None:
         self.flow, self.watch, self.unit, self.time_name = flow, watch, unit, time_name
         self.unresolved = unresolved(flow.problem)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Comparison, Flow, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references import cavity as references
 from sphear.schemes.problem import Problem
@@ -59,7 +59,7 @@ def steady(settings: Settings, time: float) -> bool:
     return time >= steady_from(settings) * (1 - EQUAL)
 
 
-def energy(known: references.CavityFlow | None, flow: FlowInTime) -> dict[str, float]:
+def energy(known: references.CavityFlow | None, flow: Flow) -> dict[str, float]:
     """Kinetic energy and, where a reference is known at this time, what it is too much in parts of that."""
     kinetic = kinetic_energy(flow)
     found = {"kinetic_energy": kinetic}
@@ -72,7 +72,7 @@ def energy(known: references.CavityFlow | None, flow: FlowInTime) -> dict[str, f
     return found
 
 
-def centrelines(flow: FlowInTime) -> Lines:
+def centrelines(flow: Flow) -> Lines:
     """u along x = 1/2 and v along y = 1/2: the `STATIONS` that are in the fluid, and the values there."""
     found = {}
     for component, name in enumerate("uv"):
@@ -137,7 +137,7 @@ def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Compa
     return found
 
 
-class Cavity(FlowCase):
+class Cavity(Case):
     """The lid-driven cavity from rest (Basa, Quinlan & Lastiwka 2009, section 6.2)."""
 
     name = "cavity"
@@ -170,11 +170,11 @@ class Cavity(FlowCase):
         """The side over the speed of the lid."""
         return SIDE / LID_SPEED
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
         return energy(next(iter(flows(settings)), None), flow)
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u.
 
         Without a reference of this time, it is said which there are.
@@ -182,11 +182,11 @@ class Cavity(FlowCase):
         found = deviations(reference(settings, flow.time), centrelines(flow))
         return found | missing(flow.time, flows(settings), steady_from(settings))
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """Both centreline profiles."""
         return beside(reference(settings, flow.time), centrelines(flow))
 
-    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+    def profiles(self, settings: Settings, flow: Flow) -> dict[str, list[float]]:
         """Both centreline profiles, to be kept."""
         lines = centrelines(flow)
         return {"stations": STATIONS.tolist(), **{name: values.tolist() for name, (_, values) in lines.items()}}

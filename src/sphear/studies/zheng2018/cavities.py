@@ -19,7 +19,7 @@ from sphear.studies.result import Progress
 from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.sweeps import Run, SweepResult
 
 PAPER = "zheng2018"
@@ -148,14 +148,14 @@ def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection
 
 def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, going on where it was saved last; fields are kept as profiles."""
-    from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow import FLOWS, CaseRun
     from sphear.simulation.saved import forget
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
     chosen_settings = on_one_thread(case, settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen_settings).key}.npz"
-    run = gone_on_with(lambda: FlowRun(FLOWS[case], chosen_settings), saved)
+    run = gone_on_with(lambda: CaseRun(FLOWS[case], chosen_settings), saved)
     run.run(keep=saved)
     forget(saved)
     whole = record(run)
@@ -164,7 +164,7 @@ def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     return whole
 
 
-def fields(run: FlowRun) -> dict[str, list[float | None]]:
+def fields(run: CaseRun) -> dict[str, list[float | None]]:
     """Both velocities at the centres of `POINTS` x `POINTS` squares, row by row from below, and where particles are.
 
     Where there is no fluid, the velocities are None.

@@ -29,7 +29,7 @@ from sphear.interactions import (
 from sphear.kernels import Kernel
 from sphear.operators.arguments import read_correction
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 from sphear.viscosity.base import ViscousTerm
 
 

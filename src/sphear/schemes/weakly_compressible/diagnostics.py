@@ -10,12 +10,12 @@ from sphear.schemes.checks import tree_of
 from sphear.schemes.energy import greatest_speed
 
 if TYPE_CHECKING:
-    from sphear.schemes.flow import Flow
+    from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 
 Array = np.ndarray[Any, Any]
 
 
-def diagnostics(flow: Flow) -> dict[str, float]:
+def diagnostics(flow: WeaklyCompressibleFlow) -> dict[str, float]:
     """The state of the fluid and of its particles.
 
     - mach: the greatest speed over the speed of sound at rest.

@@ -13,7 +13,6 @@ from sphear.equations_of_state import Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, RunSettings, Scheme
 from sphear.schemes.flat_settings import FlatSetting
-from sphear.schemes.integrators import INTEGRATORS, Integrator
 from sphear.schemes.objects import (
     CorrectionSetting,
     EquationSetting,
@@ -23,6 +22,7 @@ from sphear.schemes.objects import (
     Term,
     text,
 )
+from sphear.schemes.weakly_compressible.integrators import INTEGRATORS, Integrator
 from sphear.shifting import Lind
 
 DIFFUSION = 0.1  # delta
@@ -227,7 +227,7 @@ def _foreign(walls: ExplicitWallModel) -> bool:
     return any(field.name in walls.foreign and getattr(walls, field.name) != field.default for field in fields(walls))
 
 
-class FlowSettings(RunSettings, WeaklyCompressible):
+class WeaklyCompressibleSettings(RunSettings, WeaklyCompressible):
     """The settings of a case by the explicit scheme.
 
     Attributes, beside those of `RunSettings` and `WeaklyCompressible`:

@@ -11,7 +11,7 @@ from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.schemes.checks import check_shape
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 Array = np.ndarray[Any, Any]
 Chosen = TypeVar("Chosen", bound=WeaklyCompressible)

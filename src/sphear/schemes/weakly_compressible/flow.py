@@ -16,7 +16,6 @@ from sphear.engine.threads import loop_threads, thread_count
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
-from sphear.schemes.arrays import fields_at_start, integrated
 from sphear.schemes.base import (
     FlowFailure,
     check_kernel,
@@ -26,15 +25,16 @@ from sphear.schemes.base import (
     described,
     fineness,
 )
-from sphear.schemes.diagnostics import diagnostics
-from sphear.schemes.formulas import formulas
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
 from sphear.schemes.registered_names import named
-from sphear.schemes.settings import WeaklyCompressible
-from sphear.schemes.sound_speed import energy_at_rest, sound_speed
-from sphear.schemes.step import step_of
-from sphear.schemes.walls_of_regions import check_region, chosen_for, gone_through
+from sphear.schemes.weakly_compressible.arrays import fields_at_start, integrated
+from sphear.schemes.weakly_compressible.diagnostics import diagnostics
+from sphear.schemes.weakly_compressible.formulas import formulas
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.sound_speed import energy_at_rest, sound_speed
+from sphear.schemes.weakly_compressible.step import step_of
+from sphear.schemes.weakly_compressible.walls_of_regions import check_region, chosen_for, gone_through
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -42,12 +42,12 @@ Array = np.ndarray[Any, Any]
 OF_WALLS = ("walls", "wall_divergence", "density", "diffusion_form")  # which a region may change
 
 
-class Flow:
-    """A flow in time.
+class WeaklyCompressibleFlow:
+    """A flow in time by explicit steps, weakly compressible or of an ideal gas.
 
     Args:
         problem: what is to be computed.
-        settings: how.
+        settings: of the scheme.
 
     Attributes:
         problem: without the particles at the start.
@@ -198,7 +198,7 @@ class Flow:
         return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:
-        """Mach number, density, divergence and distances of particles now, see `sphear.schemes.diagnostics`."""
+        """Mach number, density, divergence and distances of particles now, see `diagnostics`."""
         return diagnostics(self)
 
     def resolved(self) -> dict[str, Any]:

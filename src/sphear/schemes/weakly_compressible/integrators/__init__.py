@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from sphear.names import Registry
-from sphear.schemes.integrators.base import Integrated, Integrator, Step
-from sphear.schemes.integrators.kick_drift_kick import KickDriftKick
-from sphear.schemes.integrators.midpoint import Midpoint
+from sphear.schemes.weakly_compressible.integrators.base import Integrated, Integrator, Step
+from sphear.schemes.weakly_compressible.integrators.kick_drift_kick import KickDriftKick
+from sphear.schemes.weakly_compressible.integrators.midpoint import Midpoint
 
 INTEGRATORS: Registry[Integrator] = Registry("integrator")
 for _integrator in (Midpoint(), KickDriftKick()):
