@@ -18,7 +18,7 @@ from typing import Any
 from _bench import Measurement, Report, best_of
 
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.chosen import flow_settings
+from sphear.cases.flow.start import flow_settings
 from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 

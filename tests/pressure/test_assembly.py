@@ -25,13 +25,13 @@ def dense(weights: Array, mirrored: Array | None, jump: Array, fixed: Array, unk
     walls = np.where((mirrored != 0).any(axis=1), walls, 0.0)
     matrix = fluid + walls @ mirrored
     matrix[np.arange(rows), np.arange(rows)] -= fluid.sum(axis=1) + walls.sum(axis=1)
-    known = walls @ jump
+    jump_terms = walls @ jump
     matrix[:, fixed] = np.where(np.eye(rows, unknowns, dtype=bool)[:, fixed], matrix[:, fixed], 0.0)
     for row in np.flatnonzero(fixed[:rows]):
         diagonal = -fluid[row].sum() - walls[row].sum()
-        matrix[row], known[row] = 0.0, 0.0
+        matrix[row], jump_terms[row] = 0.0, 0.0
         matrix[row, row] = diagonal if diagonal < 0 else -1.0
-    return matrix, known
+    return matrix, jump_terms
 
 
 def narrow(matrix: Any) -> csr_array:
@@ -61,10 +61,10 @@ def draw(seed: int, unknowns: int, walls: int, share: float) -> tuple[csr_array,
 def test_it_is_what_dense_arithmetic_gives(seed: int, unknowns: int, walls: int, share: float, natural: bool) -> None:
     weights, mirrored, jump, fixed = draw(seed, unknowns, walls, share)
     given_jump = np.zeros(0) if natural else jump
-    matrix, known = eliminated(weights, None if natural else mirrored, given_jump, fixed, unknowns)
+    matrix, jump_terms = eliminated(weights, None if natural else mirrored, given_jump, fixed, unknowns)
     expected, right = dense(weights.toarray(), None if natural else mirrored.toarray(), given_jump, fixed, unknowns)
     np.testing.assert_allclose(matrix.toarray(), expected, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(known, right, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(jump_terms, right, rtol=0, atol=1e-12)
 
 
 def test_each_entry_is_written_once_and_the_diagonal_first() -> None:
@@ -84,11 +84,11 @@ def test_there_is_room_for_walls_that_see_much_fluid(walls: int) -> None:
     behind = narrow(csr_array((np.ones(unknowns), places), shape=(unknowns, unknowns + walls)))
     mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) * 0.8 + 0.1)
     jump, fixed = np.arange(walls, dtype=float), np.zeros(unknowns, bool)
-    matrix, known = eliminated(behind, mirrored, jump, fixed, unknowns)
+    matrix, jump_terms = eliminated(behind, mirrored, jump, fixed, unknowns)
     expected, right = dense(behind.toarray(), mirrored.toarray(), jump, fixed, unknowns)
     assert matrix.nnz == unknowns**2
     np.testing.assert_allclose(matrix.toarray(), expected, atol=1e-12)
-    np.testing.assert_allclose(known, right, atol=1e-12)
+    np.testing.assert_allclose(jump_terms, right, atol=1e-12)
 
 
 def test_rows_sum_to_zero_where_walls_continue_a_constant() -> None:
@@ -103,22 +103,22 @@ def test_a_wall_whose_fluid_weighs_nothing_is_left_out() -> None:
     """As where a particle is only just within the support of a kernel: rows must sum to zero all the same."""
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 4.0]]))
     mirrored = csr_array((np.zeros(1), np.zeros(1, np.int32), np.array([0, 1], np.int32)), shape=(1, 2))
-    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    matrix, jump_terms = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
     np.testing.assert_array_equal(matrix.toarray(), [[-2.0, 2.0], [2.0, -2.0]])
-    assert not known.any()
+    assert not jump_terms.any()
 
 
 def test_a_row_that_walls_would_give_a_positive_diagonal_is_without_them() -> None:
     """As in a narrow corner, whose mirrored pressures are mostly the particle's own; other rows keep theirs."""
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 3.0]]))
     mirrored = narrow(np.array([[1.9, -0.9]]))
-    matrix, known = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
+    matrix, jump_terms = eliminated(weights, mirrored, np.array([5.0]), np.zeros(2, bool), 2)
     np.testing.assert_allclose(matrix.toarray(), [[-2.0, 2.0], [2.0 + 3.0 * 1.9, -5.0 - 3.0 * 0.9]], atol=1e-14)
-    np.testing.assert_array_equal(known, [0.0, 15.0])
+    np.testing.assert_array_equal(jump_terms, [0.0, 15.0])
 
 
 def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:
-    matrix, known = eliminated(
+    matrix, jump_terms = eliminated(
         csr_array((np.zeros(0), np.zeros(0, np.int32), np.zeros(3, np.int32)), shape=(2, 2)),
         None,
         np.zeros(0),
@@ -126,4 +126,4 @@ def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:
         2,
     )
     np.testing.assert_array_equal(matrix.toarray(), [[-1.0, 0.0], [0.0, -1.0]])
-    assert not known.any()
+    assert not jump_terms.any()

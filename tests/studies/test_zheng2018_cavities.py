@@ -17,7 +17,7 @@ from sphear.studies import is_long, study_of
 from sphear.studies.kept import as_text, kept, store
 from sphear.studies.result import StudyResult
 from sphear.studies.zheng2018 import cavities
-from sphear.studies.zheng2018.cavities import CASES, SIZES, TERMS, Study, Wanted, chosen, compute_run, wanted
+from sphear.studies.zheng2018.cavities import CASES, SIZES, TERMS, Study, Wanted, compute_run, selected, wanted
 from sphear.studies.zheng2018.cavity_errors import falling, leads, limit, order
 from sphear.studies.zheng2018.cavity_rows import curves, data_of, deviations, identity, least, merged, scores
 from sphear.studies.zheng2018.cavity_shown import FOUR, capped, lacking, listed
@@ -231,12 +231,12 @@ def test_new_rows_replace_old_ones_and_keep_the_rest() -> None:
 
 
 def test_runs_are_chosen_by_size_and_term() -> None:
-    few = chosen(["cavity"], at_most=50, terms=("oger",))
+    few = selected(["cavity"], at_most=50, terms=("oger",))
     assert {(each.resolution, each.reynolds, each.preset) for each in few} == {
         (40, 1000.0, "defaults"), (40, 1000.0, "zheng2018"), (40, 1000.0, "zheng2018 with shifting"),
         (50, 100.0, "defaults"),
     }  # fmt: skip
-    assert len(chosen(CASES)) == len(set(chosen(CASES))) == sum(len(wanted(case)) for case in CASES)
+    assert len(selected(CASES)) == len(set(selected(CASES))) == sum(len(wanted(case)) for case in CASES)
     assert {each.resolution for each in wanted("cavity", quick=True)} == set(cavities.QUICK_SIZES)
 
 

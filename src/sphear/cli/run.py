@@ -49,7 +49,7 @@ def run(
     with its state kept in --out DIR.
     """
     from sphear.cases.flow import FLOWS, CaseRun
-    from sphear.cases.flow.chosen import flow_settings
+    from sphear.cases.flow.start import flow_settings
 
     files = folder(out)
     chosen = FLOWS[case]
@@ -178,7 +178,7 @@ def _figure(run: CaseRun) -> Figure:
         f"{run.case.name}: {run.settings.viscosity}, Re = {run.settings.reynolds:g},"
         f" {run.case.time_name} = {times[-1]:.3g}{', failed' if run.end.startswith('failed') else ''}",
         (places, velocities, problem.spacing) if plane else None,
-        run.case.known(run.settings),
+        run.case.reference_history(run.settings),
         None if problem.shape is None else repeated(problem.shape, problem.window).distance,
     )
 

@@ -15,7 +15,7 @@ Array = np.ndarray[Any, Any]
 @compiled
 def _eliminate(  # type: ignore[no-untyped-def]
     starts, columns, weights, unknowns, to, of, share, jump, fixed, natural, place, new_starts, new_columns,
-    new_weights, known,
+    new_weights, jump_terms,
 ):  # fmt: skip
     """See `eliminated`, on arrays of compressed rows; how many numbers were written, or -1 if there is no room."""
     rows, room, count = len(starts) - 1, len(new_columns), 0
@@ -64,7 +64,7 @@ def _eliminate(  # type: ignore[no-untyped-def]
                     wall = column - unknowns
                     diagonal -= weight
                     if not fixed[row]:
-                        known[row] += weight * jump[wall]
+                        jump_terms[row] += weight * jump[wall]
                     for m in range(to[wall], to[wall + 1]):
                         column = of[m]
                         if not (fixed[column] or fixed[row]):
@@ -77,7 +77,7 @@ def _eliminate(  # type: ignore[no-untyped-def]
                 break
             for m in range(begin, count):  # in a narrow corner pressures behind walls may be mostly the particle's own
                 place[new_columns[m]] = -1
-            walls, diagonal, known[row], count = False, 0.0, 0.0, begin
+            walls, diagonal, jump_terms[row], count = False, 0.0, 0.0, begin
         new_weights[begin] += diagonal if not fixed[row] or diagonal < 0.0 else -1.0  # of a particle that is alone
         new_starts[row + 1] = count
     return count
@@ -98,7 +98,7 @@ def eliminated(
 
     Returns:
         matrix: (R, unknowns), with the diagonal.
-        known: (R,), sum_w w_iw jump_w, which belongs to the matrix's side of the equation.
+        jump_terms: (R,), sum_w w_iw jump_w, which belongs to the matrix's side of the equation.
     """
     natural = mirrored is None
     none = np.zeros(1, np.int32)
@@ -106,15 +106,15 @@ def eliminated(
         (none, none, np.zeros(1)) if mirrored is None else (mirrored.indptr, mirrored.indices, mirrored.data)
     )
     rows = weights.shape[0]
-    starts, known = np.zeros(rows + 1, np.int32), np.zeros(rows)
+    starts, jump_terms = np.zeros(rows + 1, np.int32), np.zeros(rows)
     room = 2 * weights.nnz + rows
     while True:
         columns, values, place = np.empty(room, np.int32), np.empty(room), np.full(unknowns, -1, np.int64)
-        known[:] = 0.0
+        jump_terms[:] = 0.0
         count = _eliminate(
             weights.indptr, weights.indices, weights.data, unknowns, to, of, share, jump, fixed, natural, place, starts,
-            columns, values, known,
+            columns, values, jump_terms,
         )  # fmt: skip
         if count >= 0:
-            return csr_array((values[:count], columns[:count], starts), shape=(rows, unknowns)), known
+            return csr_array((values[:count], columns[:count], starts), shape=(rows, unknowns)), jump_terms
         room *= 2

@@ -17,6 +17,7 @@ from sphear.schemes.weakly_compressible.settings import WeaklyCompressible, Weak
 
 if TYPE_CHECKING:
     from sphear.kernels import Kernel
+    from sphear.schemes.energy import EnergyBudget
     from sphear.schemes.problem import Problem
     from sphear.viscosity import ViscousTerm
 
@@ -92,6 +93,10 @@ class Flow(Protocol):
     def pressure(self) -> Array:
         """Pressure at the particles, (N,), a density by a squared speed."""
 
+    @property
+    def energy_budget(self) -> EnergyBudget | None:
+        """Kinetic energy and the work that was done on it; None of a scheme that keeps none."""
+
     @staticmethod
     def limits_of(problem: Problem, settings: Any, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
         """The time steps that each condition allows in another problem with the same particles."""
@@ -134,12 +139,12 @@ def settings_type(scheme: str) -> type[Settings]:
     return _SETTINGS[scheme]
 
 
-def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearError:
+def unknown_setting(key: str, valid: Mapping[str, Any], scheme: str) -> SphearError:
     """The error for a setting that a scheme has not: it is another scheme's, or nobody's."""
     of = [name for name, kind in _SETTINGS.items() if key in kind.model_fields]
     if of:
         return SphearError(f"the setting {key} is one of scheme={of[0]}, and this is scheme={scheme}")
-    return missing(key, known)
+    return missing(key, valid)
 
 
 def flow_of(problem: Problem, scheme: Scheme, duration: float = math.inf) -> Flow:

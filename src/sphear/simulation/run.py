@@ -196,10 +196,10 @@ class Run:
 
     def implausible(self) -> str:
         """The end of a flow that does what no fluid does, else nothing."""
-        found = self.watch.found(self.flow)
-        if found is None:
+        fault = self.watch.fault(self.flow)
+        if fault is None:
             return ""
-        return f"failed: the flow failed at t = {self.flow.time:g}: {found}, as when particles do not resolve it"
+        return f"failed: the flow failed at t = {self.flow.time:g}: {fault}, as when particles do not resolve it"
 
     @property
     def warnings(self) -> list[str]:

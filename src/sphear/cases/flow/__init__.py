@@ -5,11 +5,11 @@ from __future__ import annotations
 from sphear.cases.flow.base import Case, Comparison
 from sphear.cases.flow.cavity import CAVITY
 from sphear.cases.flow.cavity_cylinder import CAVITY_CYLINDER
-from sphear.cases.flow.chosen import flow
 from sphear.cases.flow.couette import COUETTE
 from sphear.cases.flow.dam_break import DAM_BREAK
 from sphear.cases.flow.poiseuille import POISEUILLE
 from sphear.cases.flow.run import CaseRun
+from sphear.cases.flow.start import flow
 from sphear.cases.flow.taylor_green import TAYLOR_GREEN
 from sphear.names import Registry
 

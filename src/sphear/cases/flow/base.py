@@ -74,7 +74,7 @@ class Case(ABC):
     def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Errors and the like at one moment, by name."""
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The reason for which a run is over at one moment, from its metrics: "steady", "failed: ...", or None."""
         return None
 
@@ -90,7 +90,7 @@ class Case(ABC):
         """Numbers along lines, at the end, that are kept with the results of a sweep."""
         return {}
 
-    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+    def reference_history(self, settings: Settings) -> tuple[Array, Array] | None:
         """The headline where others have it, times and values; None where nobody has."""
         return None
 
@@ -123,9 +123,9 @@ class Case(ABC):
         Raises:
             SphearError: there is none of that name for the scheme.
         """
-        found = preset_settings(name, scheme)
-        found.update(self.presets.get(BY_SCHEME[scheme].name(name), {}))
-        return found
+        settings = preset_settings(name, scheme)
+        settings.update(self.presets.get(BY_SCHEME[scheme].name(name), {}))
+        return settings
 
     def explicit(self, **changes: Any) -> WeaklyCompressibleSettings:
         """The settings of this case for the explicit scheme, with some changed."""

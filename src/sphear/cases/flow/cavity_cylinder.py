@@ -66,7 +66,7 @@ def flows(settings: Settings) -> list[references.CavityFlow]:
 
 def reference(settings: Settings, time: float) -> references.CavityFlow | None:
     """The flow of the reference, if this is the time of its profiles."""
-    return next((known for known in flows(settings) if abs(known.time - time) <= cavity.EQUAL * time), None)
+    return next((each for each in flows(settings) if abs(each.time - time) <= cavity.EQUAL * time), None)
 
 
 class CavityCylinder(Cavity):
@@ -108,8 +108,8 @@ class CavityCylinder(Cavity):
 
     def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """As `cavity.summary`."""
-        found = cavity.deviations(reference(settings, flow.time), cavity.centrelines(flow))
-        return found | cavity.missing(flow.time, flows(settings), inf)
+        metrics = cavity.deviations(reference(settings, flow.time), cavity.centrelines(flow))
+        return metrics | cavity.missing(flow.time, flows(settings), inf)
 
     def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """Both centreline profiles."""

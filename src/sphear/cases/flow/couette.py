@@ -66,7 +66,7 @@ class Couette(Case):
             "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
         }
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """Steady when the slowest mode, exp(-pi^2 nu t / L^2), is below 1e-12."""
         decayed = np.exp(-(np.pi**2) * KINEMATIC_VISCOSITY * flow.time / GAP**2) < STEADY
         return "steady" if decayed else None

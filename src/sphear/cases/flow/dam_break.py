@@ -131,14 +131,14 @@ class DamBreak(Case):
             "energy": float((kinetic + potential) / start),
         }
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The end of a run whose front meets the opposite wall."""
         assert isinstance(settings, DamBreakSettings)
-        return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
+        return AT_WALL if metrics["front"] > settings.tank - 2 * flow.problem.spacing else None
 
     def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """The front less that of the experiment, in column widths, at times of which it is known."""
-        measured, time = self.known(settings), flow.time * speed(settings) / WIDTH
+        measured, time = self.reference_history(settings), flow.time * speed(settings) / WIDTH
         if measured is None:
             return {}
         first, last = measured[0][0], measured[0][-1]
@@ -147,7 +147,7 @@ class DamBreak(Case):
             return {"reference_missing": said}
         return {"front_deviation": self.metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
 
-    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+    def reference_history(self, settings: Settings) -> tuple[Array, Array] | None:
         """The front of the experiment, if this is its column."""
         assert isinstance(settings, DamBreakSettings)
         return (np.array(reference.TIMES), np.array(reference.FRONTS)) if settings.column == reference.COLUMN else None

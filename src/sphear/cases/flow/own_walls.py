@@ -44,7 +44,7 @@ class AroundSolid(Case):
         """Kinetic energy, of a unit of depth, and the greatest speed."""
         return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest_speed(flow)}
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """At the horizon of the case, where nothing says until when."""
         horizon = self.case.horizon if settings.until is None else None
         return "time" if horizon is not None and flow.time >= horizon * self.time_unit(settings) else None

@@ -79,11 +79,11 @@ class Poiseuille(Case):
             "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
         }
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The paper's rules: steady when the exact U(0, t)/U0 > 1 - 1e-12, failed when the RMS error reaches 12 %."""
         most = threshold(flow.time, flow.problem.spacing, settings.initial)
-        if not found["rms_error"] < most:
-            return f"failed: the RMS error of {found['rms_error']:.1%} is at least {most:.0%}"
+        if not metrics["rms_error"] < most:
+            return f"failed: the RMS error of {metrics['rms_error']:.1%} is at least {most:.0%}"
         centre = reference(settings)
         if centre.velocity(np.zeros(1), flow.time)[0] > (1 - STEADY) * centre.centreline_velocity:
             return "steady"

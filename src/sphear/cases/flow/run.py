@@ -35,7 +35,7 @@ class CaseRun(Run):
 
     Args:
         case: what is computed.
-        settings: how.
+        settings: of the case and the scheme.
         observers: which look at the run, at intervals or times of the flow, `unit` times those that are printed.
         beyond: ends of the case that the run goes on beyond: "steady", "failed", which is too large an error or what no
             fluid does, or another. A flow that breaks down ends, and so does one at its time or its most steps.
@@ -74,8 +74,8 @@ class CaseRun(Run):
         for observer in observers:
             check_observer(observer)
         for end in beyond:
-            if end not in (known := ("steady", FAILED, *case.ends)):
-                raise unknown(f"end of {case.name} to go on beyond", end, known)
+            if end not in (ends := ("steady", FAILED, *case.ends)):
+                raise unknown(f"end of {case.name} to go on beyond", end, ends)
         settings = named(settings)
         self.beyond, self.measured = frozenset(beyond), measured
         self.case, self.settings = opened(case, settings), settings

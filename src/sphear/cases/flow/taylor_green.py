@@ -74,7 +74,7 @@ class TaylorGreenVortices(Case):
             "kinetic_energy_ratio": energy / reference(settings).kinetic_energy(flow.time),
         }
 
-    def ended(self, settings: Settings, flow: Flow, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """Never before its time."""
         return None
 
@@ -94,9 +94,9 @@ class TaylorGreenVortices(Case):
         line = np.stack((np.full_like(y, 0.25 * SIDE), y), axis=1)
         near = np.abs(flow.positions[:, 0] - 0.25 * SIDE) < 0.5 * flow.problem.spacing
         exact = np.asarray(reference(settings).velocity(line, flow.time))
-        places, found = flow.positions[near, 1], flow.velocities[near]
+        places, velocities = flow.positions[near, 1], flow.velocities[near]
         return {
-            name: Comparison("y", places, found[:, component], y, exact[:, component])
+            name: Comparison("y", places, velocities[:, component], y, exact[:, component])
             for component, name in enumerate(("u near x = L / 4", "v near x = L / 4"))
         }
 

@@ -30,8 +30,8 @@ class BlockPreconditioner:
     """
 
     def __init__(self, of: CoupledStep) -> None:
-        self.of, self.viscosity = of, of.how.viscosity
-        self.inverse = of.how.pressures.preconditioner.build(of.equation.system)
+        self.of, self.viscosity = of, of.solver.viscosity
+        self.inverse = of.solver.pressures.preconditioner.build(of.equation.system)
         self.velocity_inverse = self._velocity_inverse()
 
     def __call__(self, z: Array) -> Array:
@@ -62,7 +62,7 @@ class BlockPreconditioner:
         if not factor:
             return None
         equation = self.of.equation
-        matrix = self.of.how.pressures.assembly.velocity_matrix(equation, self.of.operators.interpolation)
+        matrix = self.of.solver.pressures.assembly.velocity_matrix(equation, self.of.operators.interpolation)
         count = matrix.shape[0]
         shifted = csr_array(matrix.copy())
         shifted.data[shifted.indptr[:count]] -= 1.0 / factor  # the diagonal comes first

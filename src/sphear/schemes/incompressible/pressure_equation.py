@@ -27,14 +27,14 @@ class PressureEquation(NamedTuple):
     """A pressure equation, its unknowns in the order of the cells.
 
     system: the matrix.
-    known: what the walls' normal gradients add to the matrix's side.
+    jump_terms: what the walls' normal gradients add to the matrix's side.
     order: (N,), the particle of each row; particles on walls follow.
     weights: (N, unknowns + W), of pairs, walls not yet eliminated.
     mirrored: (W, unknowns), the pressures behind walls; None where they are left out.
     """
 
     system: PressureSystem
-    known: Array
+    jump_terms: Array
     order: Array
     weights: csr_array
     mirrored: csr_array | None
@@ -99,14 +99,14 @@ class PressureAssembly:
         if surface is not None:
             outside = missing_weights(particles, surface, self.moments, self.preparation)
             fixed[:count] = surface.alone[order]
-        matrix, known = eliminated(weights, mirrored, jump, fixed, unknowns)
+        matrix, jump_terms = eliminated(weights, mirrored, jump, fixed, unknowns)
         matrix.data[matrix.indptr[:count]] += outside[order]  # the diagonal comes first
         positions = particles.positions[order]
         if walls is not None:
             matrix, positions = walls.model.wall_equations(
                 walls, matrix, positions, particles.positions[:count], column
             )
-            known = np.concatenate((known, np.zeros(self.on_wall)))
+            jump_terms = np.concatenate((jump_terms, np.zeros(self.on_wall)))
         system = PressureSystem(
             matrix,
             positions,
@@ -117,7 +117,7 @@ class PressureAssembly:
             self.symmetric,
             not (fixed.any() or outside.any()),
         )
-        return PressureEquation(system, known, order, weights, mirrored)
+        return PressureEquation(system, jump_terms, order, weights, mirrored)
 
     def wall_coupling(self, equation: PressureEquation) -> csr_array:
         """(N, W), what the jumps of pressures behind walls add to the matrix's side of an equation."""

@@ -25,13 +25,13 @@ def diagnostics(flow: WeaklyCompressibleFlow) -> dict[str, float]:
     - smallest_distance: of two particles, in spacings; 1 on a lattice.
     """
     problem = flow.problem
-    found = {
+    metrics = {
         "mach": greatest_speed(flow.velocities) / flow.sound_speed,
         "density_deviation": float(np.sqrt(np.mean((flow.density / problem.density - 1.0) ** 2))),
     }
     if (rate := flow.density_rate) is not None:
-        found["divergence"] = float(np.abs(rate / flow.density).mean() * problem.length / problem.speed)
+        metrics["divergence"] = float(np.abs(rate / flow.density).mean() * problem.length / problem.speed)
     if flow.count > 1 and np.isfinite(flow.positions).all():
         tree = tree_of(problem, flow.positions)
-        found["smallest_distance"] = float(np.min(tree.query(tree.data, k=2)[0][:, 1])) / problem.spacing
-    return found
+        metrics["smallest_distance"] = float(np.min(tree.query(tree.data, k=2)[0][:, 1])) / problem.spacing
+    return metrics

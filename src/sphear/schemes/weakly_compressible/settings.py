@@ -124,8 +124,8 @@ class WeaklyCompressible(Scheme):
     @property
     def wall_model(self) -> ExplicitWallModel:
         """The wall model, with its continuation, divergence and particles on walls."""
-        found: ExplicitWallModel = self._object("walls")
-        return found
+        model: ExplicitWallModel = self._object("walls")
+        return model
 
     @property
     def time_integrator(self) -> Integrator:
@@ -135,8 +135,8 @@ class WeaklyCompressible(Scheme):
     @property
     def _walls(self) -> ExplicitWallModel:
         """The wall model as it is without flat settings: its class decides on the defaults beside it."""
-        found: Any = WALL_MODELS[self.walls] if isinstance(self.walls, str) else self.walls
-        walls: ExplicitWallModel = found
+        given: Any = WALL_MODELS[self.walls] if isinstance(self.walls, str) else self.walls
+        walls: ExplicitWallModel = given
         return walls
 
     @property

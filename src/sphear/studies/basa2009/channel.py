@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from sphear.cases.flow.base import Case, Settings
-from sphear.cases.flow.chosen import flow_settings
 from sphear.cases.flow.poiseuille import POISEUILLE, reference
 from sphear.cases.flow.run import CaseRun
+from sphear.cases.flow.start import flow_settings
 from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from sphear.simulation.observers import Observer
 from sphear.studies.rows import significant

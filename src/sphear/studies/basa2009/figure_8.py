@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.chosen import flow_settings
 from sphear.cases.flow.run import CaseRun
+from sphear.cases.flow.start import flow_settings
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.cavity import PARTICLES, UNTIL
 from sphear.studies.result import Agreement, Progress, StudyResult

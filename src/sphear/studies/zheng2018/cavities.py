@@ -84,16 +84,16 @@ class Study:
     """Runs and where they are kept.
 
     Args:
-        chosen: the runs.
+        selection: the runs.
     """
 
-    def __init__(self, chosen: Iterable[Wanted]) -> None:
-        self.chosen = list(chosen)
+    def __init__(self, selection: Iterable[Wanted]) -> None:
+        self.selection = list(selection)
 
     @cached_property
     def runs(self) -> dict[Wanted, Run]:
         """By what is wanted."""
-        return {each: each.run() for each in self.chosen}
+        return {each: each.run() for each in self.selection}
 
     def compute(self, workers: int, progress: Progress = no_progress) -> dict[Wanted, SweepResult]:
         """Compute what is not kept, short runs first.
@@ -136,7 +136,7 @@ def computed(case: str, *, quick: bool, workers: int, progress: Progress) -> dic
     return data_of(case, Study(wanted(case, quick)).compute(workers, progress), quick)
 
 
-def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection[str] | None = None) -> list[Wanted]:
+def selected(cases: Collection[str], at_most: int | None = None, terms: Collection[str] | None = None) -> list[Wanted]:
     """Some of the runs of cases: of so many particles a side at most, with these terms."""
     return [
         each

@@ -51,8 +51,8 @@ def flow(
     """
     from sphear.cases.flow import FLOWS
 
-    chosen = FLOWS[case]
-    return CaseRun(chosen, flow_settings(chosen, settings, preset), observers=observers, beyond=beyond)
+    named = FLOWS[case]
+    return CaseRun(named, flow_settings(named, settings, preset), observers=observers, beyond=beyond)
 
 
 def flow_settings(case: Case, changes: Mapping[str, Any], preset: str | None = None) -> Settings:
@@ -69,11 +69,11 @@ def flow_settings(case: Case, changes: Mapping[str, Any], preset: str | None = N
     scheme = str(changes.get("scheme", next(iter(case.defaults))))
     behind = {} if preset is None else case.preset(preset, scheme)
     kind = case.kind(scheme)
-    changes, known = kind.flattened(changes), kind.model_fields
+    changes, valid = kind.flattened(changes), kind.model_fields
     for key in changes:
-        if key not in known:
-            raise unknown_setting(key, known, scheme)
+        if key not in valid:
+            raise unknown_setting(key, valid, scheme)
     with checked("the setting "):
-        chosen = case.settings(**{**behind, **changes})
-    chosen.unmark(behind.keys() - changes.keys())
-    return chosen
+        result = case.settings(**{**behind, **changes})
+    result.unmark(behind.keys() - changes.keys())
+    return result
