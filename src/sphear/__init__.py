@@ -73,9 +73,12 @@ if TYPE_CHECKING:
         correction as correction,
         equation_of_state as equation_of_state,
         kernel as kernel,
+        viscous_term as viscous_term,
+    )
+    from sphear.extensions.parts_of_schemes import (
+        integrator as integrator,
         preconditioner as preconditioner,
         shifting_method as shifting_method,
-        viscous_term as viscous_term,
         wall_model as wall_model,
     )
     from sphear.kernels import (
@@ -173,9 +176,8 @@ _HOMES = {
         "EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear",
     ),
     "sphear.errors": ("SphearError", "SphearWarning", "TooFewNeighboursError"),
-    "sphear.extensions.naming": (
-        "correction", "equation_of_state", "kernel", "preconditioner", "shifting_method", "viscous_term", "wall_model",
-    ),
+    "sphear.extensions.naming": ("correction", "equation_of_state", "kernel", "viscous_term"),
+    "sphear.extensions.parts_of_schemes": ("integrator", "preconditioner", "shifting_method", "wall_model"),
     "sphear.kernels": (
         "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2",
         "WendlandC4", "WendlandC6",

@@ -10,5 +10,6 @@ from sphear.schemes.weakly_compressible.integrators.midpoint import Midpoint
 INTEGRATORS: Registry[Integrator] = Registry("integrator")
 for _integrator in (Midpoint(), KickDriftKick()):
     INTEGRATORS.add(_integrator.name, _integrator, _integrator.aliases)
+INTEGRATORS.open()
 
 __all__ = ["INTEGRATORS", "Integrated", "Integrator", "KickDriftKick", "Midpoint", "Step"]
