@@ -19,6 +19,7 @@ from sphear import WendlandC2
 from sphear.corrections import NoCorrection
 from sphear.engine.cache import generated_module
 from sphear.engine.cuda import cuda_text
+from sphear.engine.preparing import PreparationSweep
 from sphear.engine.sweep import Sweep
 from sphear.viscosity import VISCOSITY
 
@@ -64,13 +65,8 @@ def prepared(term: Any, kernel: Any, case: Case) -> tuple[tuple[Any, ...], Array
     preparation = term.preparation(kernel, NoCorrection())
     if preparation is None:
         return (), np.empty((1, 1))
-    sums = Sweep(preparation, case.neighbours, case.fields)
-    out = np.empty((case.count, sums.outputs))
-    for chunk in case.neighbours.chunks:
-        sums.over(chunk, out, np.arange(chunk.begin, chunk.end, dtype=np.int32))
-    if hasattr(preparation, "solve"):
-        return (("prepared", preparation.template(2)),), preparation.solve(out, 2)
-    return (("prepared", sums.formula.result),), out
+    sums = PreparationSweep(preparation, case.neighbours, case.fields)
+    return sums.template, np.concatenate([sums.over(chunk) for chunk in case.neighbours.chunks])
 
 
 def check(report: Report) -> None:

@@ -17,17 +17,17 @@ from scipy.sparse.linalg import LinearOperator, bicgstab
 
 from sphear.cases.flow import FLOWS
 from sphear.pressure import Solution
-from sphear.schemes.base import FlowInTime, flow_in_time
+from sphear.schemes.base import Flow, flow_of
 from sphear.schemes.incompressible import pressures
 
 WARM_UP = 20  # steps, until particles are disordered and the pressure is known
 
 
-def cavity(side: int, **settings: Any) -> FlowInTime:
+def cavity(side: int, **settings: Any) -> Flow:
     """A cavity at Re = 1000 some steps after its start."""
     case = FLOWS["cavity"]
     chosen = case.settings(scheme="incompressible", reynolds=1000.0, resolution=side, threads=1, **settings)
-    made = flow_in_time(case.problem(chosen), chosen)
+    made = flow_of(case.problem(chosen), chosen)
     made.advance(WARM_UP)
     return made
 
@@ -53,7 +53,7 @@ def free(system: Any, right: Any, guess: Any, name: Any, tolerance: float, floor
     return Solution(guess, 0, 0.0, 0.0, "none", "none")
 
 
-def exchanged(flow: FlowInTime, name: str, solver: Any, cold: bool) -> Measurement:
+def exchanged(flow: Flow, name: str, solver: Any, cold: bool) -> Measurement:
     """The same step again and again, its solver exchanged, from the last pressure or from none."""
     with_it, state = pressures.solve, flow.state()
 
@@ -108,7 +108,7 @@ def main() -> None:
 
     case = FLOWS["taylor-green"]
     chosen = case.settings(scheme="incompressible", resolution=50, threads=1)
-    vortex = flow_in_time(case.problem(chosen), chosen)
+    vortex = flow_of(case.problem(chosen), chosen)
     vortex.advance(WARM_UP)
     mine, theirs = clocked("sphear", lambda: vortex.advance(1)), pysph(50, 30)
     if theirs is None:

@@ -24,12 +24,12 @@ PatchTest(sizes=(int(sys.argv[1]),), viscosity=(sys.argv[2],), jitter=0.3).rows(
 FLOW = """
 import sys
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.chosen import flow_settings
-from sphear.schemes.flow import Flow
+from sphear.cases.flow.start import flow_settings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 case = FLOWS["taylor-green"]
 changes = {"resolution": int(sys.argv[1]), "viscosity": sys.argv[2], "threads": 1}
 settings = flow_settings(case, changes, "basa2009")
-Flow(case.problem(settings), settings).advance(3)
+WeaklyCompressibleFlow(case.problem(settings), settings).advance(3)
 """
 SIDE = 1000
 

@@ -29,7 +29,7 @@ from scipy.spatial import cKDTree
 
 from sphear.cases.flow import FLOWS
 from sphear.pressure import AlgebraicMultigrid, PressureSystem, Solution, solve
-from sphear.schemes.base import flow_in_time
+from sphear.schemes.base import flow_of
 from sphear.schemes.incompressible import pressures
 
 STEPS = 20  # of a flow, before its system is looked at
@@ -109,7 +109,7 @@ def of_flow(name: str, side: int, neumann: str) -> tuple[PressureSystem, Array]:
     chosen = case.settings(
         scheme="incompressible", reynolds=1000.0, resolution=side, threads=1, walls=neumann, max_steps=STEPS
     )
-    flow = flow_in_time(case.problem(chosen), chosen)
+    flow = flow_of(case.problem(chosen), chosen)
     flow.advance(STEPS)
     with_it = pressures.solve
 

@@ -18,9 +18,9 @@ from typing import Any
 from _bench import Measurement, Report, best_of
 
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.chosen import flow_settings
-from sphear.schemes.flow import Flow
-from sphear.schemes.settings import FlowSettings
+from sphear.cases.flow.start import flow_settings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 ONE_EVALUATION: dict[str, Any] = {
     "density": "continuity",
@@ -32,16 +32,16 @@ ONE_EVALUATION: dict[str, Any] = {
 }
 
 
-def flow(case: str, **settings: Any) -> Flow:
+def flow(case: str, **settings: Any) -> WeaklyCompressibleFlow:
     """A flow that has made its first steps; what is not said is as in the paper, the cheapest there is."""
     chosen = flow_settings(FLOWS[case], settings, "basa2009")
-    assert isinstance(chosen, FlowSettings)
-    made = Flow(FLOWS[case].problem(chosen), chosen)
+    assert isinstance(chosen, WeaklyCompressibleSettings)
+    made = WeaklyCompressibleFlow(FLOWS[case].problem(chosen), chosen)
     made.advance(2)
     return made
 
 
-def stepping(name: str, made: Flow, steps: int) -> Measurement:
+def stepping(name: str, made: WeaklyCompressibleFlow, steps: int) -> Measurement:
     """Seconds a step."""
 
     def measure() -> dict[str, float]:

@@ -42,7 +42,7 @@ def main(resolution: int = 50, folder: Path | None = None) -> dict[str, float]:
     }
 
 
-def draw(run: sphear.FlowRun, path: Path) -> None:
+def draw(run: sphear.CaseRun, path: Path) -> None:
     """Both profiles beside their references, and the table."""
     from matplotlib.figure import Figure
 

@@ -17,7 +17,7 @@ import sphear
 from sphear.cases.flow import FLOWS
 from sphear.cases.flow.options import FlowOptions
 from sphear.schemes.incompressible.settings import IncompressibleSettings
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 SOURCE = Path(sphear.__file__).parent
 
@@ -69,7 +69,7 @@ def test_the_types_that_users_meet() -> None:
     assert_type(sphear.KERNELS["cubic_spline"], type[sphear.Kernel])
     assert_type(sphear.PatchTest(sizes=(20,)).h_over_dx, float | None)
     run = sphear.flow("cavity", viscosity=sphear.Cleary(xi=2), reynolds=100.0, resolution=12)
-    assert_type(run, sphear.FlowRun)
+    assert_type(run, sphear.CaseRun)
     assert_type(run.history, list[dict[str, float]])
     assert_type(run.flow.velocities, Array)
     assert_type(run.flow.time_step, float)
@@ -94,15 +94,19 @@ def test_wrong_calls_are_errors_to_type_checkers_and_when_they_are_made(wrong: C
 
 
 def test_the_settings_of_flows_are_those_that_type_checkers_know() -> None:
-    kinds = [FlowSettings, IncompressibleSettings, *(kind for case in FLOWS for kind in FLOWS[case].kinds.values())]
+    kinds = [
+        WeaklyCompressibleSettings,
+        IncompressibleSettings,
+        *(kind for case in FLOWS for kind in FLOWS[case].kinds.values()),
+    ]
     assert set(FlowOptions.__annotations__) == {name for kind in kinds for name in kind.model_fields}
 
 
 def test_what_is_printed_of_objects_is_short_and_telling() -> None:
     run = sphear.flow("cavity", scheme="incompressible", reynolds=400, resolution=12)
-    assert repr(run) == ("<FlowRun of cavity: incompressible, fatehi_manzari, Re = 400, 144 particles, t = 0, step 0>")
+    assert repr(run) == ("<CaseRun of cavity: incompressible, fatehi_manzari, Re = 400, 144 particles, t = 0, step 0>")
     assert repr(run.flow).startswith("<IncompressibleFlow of 144 particles, fatehi_manzari: t = 0, 0 steps of 0.0")
-    assert repr(sphear.flow("couette", resolution=12).flow).startswith("<Flow of ")
+    assert repr(sphear.flow("couette", resolution=12).flow).startswith("<WeaklyCompressibleFlow of ")
     assert repr(sphear.KERNELS).startswith("<Registry of kernel: cubic_spline, ")
     assert repr(sphear.Particles.read(X, kernel=sphear.WendlandC2(0.2))) == (
         "<Particles: 40 in 2-D, WendlandC2(h=0.2), float64>"

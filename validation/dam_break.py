@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.references import dam_break as experiment
 from sphear.results.figure import save
 from sphear.results.figure.flow import draw_particles
@@ -32,7 +32,7 @@ def computed(size: int) -> tuple[dict[str, Any], list[Snapshot]]:
     case = FLOWS["dam-break"]
     settings = case.settings(resolution=size)
     snapshots = Snapshots(when=np.array(SHOWN) * case.time_unit(settings))
-    run = FlowRun(case, settings, observers=[snapshots]).run()
+    run = CaseRun(case, settings, observers=[snapshots]).run()
     time, front, energy = (np.array([row[key] for row in run.history]) for key in ("time", "front", "energy"))
     known = np.array(experiment.TIMES) <= time[-1]
     times, fronts = np.array(experiment.TIMES)[known], np.array(experiment.FRONTS)[known]

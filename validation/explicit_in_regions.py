@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 
 RESOLUTION, REYNOLDS, UNTIL = 50, 100.0, 10.0
 MIRROR_POINTS = "incompressible, mirror points"
@@ -32,7 +32,7 @@ def computed(settings: dict[str, Any]) -> dict[str, Any]:
     """The kinetic energy against time, the profiles at the end, and what they took."""
     case = FLOWS["cavity-cylinder"]
     chosen = case.settings(**settings, resolution=RESOLUTION, reynolds=REYNOLDS, until=UNTIL)
-    run = FlowRun(case, chosen).run()
+    run = CaseRun(case, chosen).run()
     return {
         "settings": settings,
         "end": run.end,

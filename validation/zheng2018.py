@@ -16,7 +16,7 @@ from typing import Any
 
 from _keeping import keep_as_they_end, parser, written
 
-from sphear.studies.zheng2018.cavities import CASES, TERMS, Study, Wanted, chosen
+from sphear.studies.zheng2018.cavities import CASES, TERMS, Study, Wanted, selected
 from sphear.studies.zheng2018.cavity_rows import data_of, identity, merged
 
 RESULTS = Path(__file__).parent / "zheng2018"
@@ -52,7 +52,7 @@ def main() -> None:
     asked.add_argument("--terms", type=_terms, metavar="TERM,TERM...", help=f"some of {', '.join(TERMS)}")
     options = asked.parse_args()
     cases = list(dict.fromkeys(ITEMS[item] for item in options.items or ITEMS))
-    runs = chosen(cases, options.at_most, options.terms)
+    runs = selected(cases, options.at_most, options.terms)
     study = Study(_missing(runs, cases) if options.missing else runs)
 
     def numbers() -> dict[Path, dict[str, Any]]:

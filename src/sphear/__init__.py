@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         Rectangle as Rectangle,
         Shape as Shape,
     )
-    from sphear.cases.flow import FlowRun as FlowRun, flow as flow
+    from sphear.cases.flow import CaseRun as CaseRun, flow as flow
     from sphear.cases.measured_card import MeasuredCard as MeasuredCard, measured_card as measured_card
     from sphear.cases.patch_test import PatchTest as PatchTest
     from sphear.corrections import (
@@ -73,9 +73,12 @@ if TYPE_CHECKING:
         correction as correction,
         equation_of_state as equation_of_state,
         kernel as kernel,
+        viscous_term as viscous_term,
+    )
+    from sphear.extensions.parts_of_schemes import (
+        integrator as integrator,
         preconditioner as preconditioner,
         shifting_method as shifting_method,
-        viscous_term as viscous_term,
         wall_model as wall_model,
     )
     from sphear.kernels import (
@@ -108,13 +111,13 @@ if TYPE_CHECKING:
     )
     from sphear.schemes.base import FlowFailure as FlowFailure
     from sphear.schemes.incompressible.settings import Incompressible as Incompressible
-    from sphear.schemes.integrators import (
+    from sphear.schemes.weakly_compressible.integrators import (
         INTEGRATORS as INTEGRATORS,
         Integrator as Integrator,
         KickDriftKick as KickDriftKick,
         Midpoint as Midpoint,
     )
-    from sphear.schemes.settings import WeaklyCompressible as WeaklyCompressible
+    from sphear.schemes.weakly_compressible.settings import WeaklyCompressible as WeaklyCompressible
     from sphear.shifting import (
         SHIFTING as SHIFTING,
         Lind as Lind,
@@ -165,7 +168,7 @@ _HOMES = {
         "Natural", "WallModel",
     ),
     "sphear.boundaries.shapes": ("Circle", "HalfPlane", "Polygon", "Rectangle", "Shape"),
-    "sphear.cases.flow": ("FlowRun", "flow"),
+    "sphear.cases.flow": ("CaseRun", "flow"),
     "sphear.cases.measured_card": ("MeasuredCard", "measured_card"),
     "sphear.cases.patch_test": ("PatchTest",),
     "sphear.corrections": ("CORRECTIONS", "BonetLok", "Correction", "NoCorrection", "Renormalised", "Shepard"),
@@ -173,9 +176,8 @@ _HOMES = {
         "EQUATIONS_OF_STATE", "Barotropic", "BatchelorTait", "EquationOfState", "IdealGas", "Linear",
     ),
     "sphear.errors": ("SphearError", "SphearWarning", "TooFewNeighboursError"),
-    "sphear.extensions.naming": (
-        "correction", "equation_of_state", "kernel", "preconditioner", "shifting_method", "viscous_term", "wall_model",
-    ),
+    "sphear.extensions.naming": ("correction", "equation_of_state", "kernel", "viscous_term"),
+    "sphear.extensions.parts_of_schemes": ("integrator", "preconditioner", "shifting_method", "wall_model"),
     "sphear.kernels": (
         "KERNELS", "CubicSpline", "Gaussian", "Kernel", "QuarticSpline", "QuinticSpline", "WendlandC2",
         "WendlandC4", "WendlandC6",
@@ -187,8 +189,8 @@ _HOMES = {
     ),
     "sphear.schemes.base": ("FlowFailure",),
     "sphear.schemes.incompressible.settings": ("Incompressible",),
-    "sphear.schemes.integrators": ("INTEGRATORS", "Integrator", "KickDriftKick", "Midpoint"),
-    "sphear.schemes.settings": ("WeaklyCompressible",),
+    "sphear.schemes.weakly_compressible.integrators": ("INTEGRATORS", "Integrator", "KickDriftKick", "Midpoint"),
+    "sphear.schemes.weakly_compressible.settings": ("WeaklyCompressible",),
     "sphear.shifting": ("SHIFTING", "Lind", "NoShifting", "ShiftingMethod", "Xu"),
     "sphear.simulation.fluid": ("Fluid",),
     "sphear.simulation.observers": (

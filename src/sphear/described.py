@@ -36,7 +36,7 @@ def explained(settings: type[BaseModel], registries: dict[str, str] | None = Non
     registries = registries or {}
     return {
         name: Explained(
-            said.get(name, ""), (not _chosen(field) and registries.get(name)) or _values(field), field.default
+            said.get(name, ""), (not _lists_choices(field) and registries.get(name)) or _values(field), field.default
         )
         for name, field in settings.model_fields.items()
     }
@@ -59,7 +59,7 @@ def _meanings(kind: type) -> dict[str, str]:
     return found
 
 
-def _chosen(field: FieldInfo) -> bool:
+def _lists_choices(field: FieldInfo) -> bool:
     """True of a setting that says its own choices, whatever else of its name is listed."""
     return get_origin(field.annotation) is Literal
 

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 
 Array = np.ndarray[Any, Any]
 
 
 @cache
-def best(case: str, **settings: Any) -> FlowRun:
-    return FlowRun(FLOWS[case], FLOWS[case].settings(**settings)).run()
+def best(case: str, **settings: Any) -> CaseRun:
+    return CaseRun(FLOWS[case], FLOWS[case].settings(**settings)).run()
 
 
 def test_the_channel_is_a_hundred_times_as_accurate_as_with_the_papers_settings() -> None:

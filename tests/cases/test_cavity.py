@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.cases.flow import cavity as case
 from sphear.cases.flow import cavity_cylinder as cylinder
 from sphear.references import cavity as references
-from sphear.schemes.flow import Flow
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from sphear.simulation.interpolation import interpolated
 
 Array = np.ndarray[Any, Any]
@@ -22,9 +22,9 @@ N = 16
 CAVITY = FLOWS["cavity"]
 
 
-def cavity(**changes: Any) -> tuple[FlowSettings, Flow]:
+def cavity(**changes: Any) -> tuple[WeaklyCompressibleSettings, WeaklyCompressibleFlow]:
     settings = CAVITY.explicit(**{**CAVITY.preset("basa2009", "explicit"), **changes}, resolution=N)
-    return settings, Flow(CAVITY.problem(settings), settings)
+    return settings, WeaklyCompressibleFlow(CAVITY.problem(settings), settings)
 
 
 def parabolas(x: Array) -> Array:
@@ -81,7 +81,7 @@ def test_particles_at_rest_have_no_energy_and_the_time_zero_no_error() -> None:
 def test_the_energy_is_the_integral_over_the_cavity(resolution: int) -> None:
     """u = (3, 4) everywhere: |u|^2 / 2 over the area 1."""
     settings = CAVITY.explicit(**CAVITY.preset("basa2009", "explicit"), resolution=resolution)
-    flow = Flow(CAVITY.problem(settings), settings)
+    flow = WeaklyCompressibleFlow(CAVITY.problem(settings), settings)
     flow.velocities[:] = (3.0, 4.0)
     assert CAVITY.metrics(settings, flow)["kinetic_energy"] == pytest.approx(12.5)
 
@@ -212,8 +212,8 @@ def test_most_numbers_have_no_reference(reynolds: float) -> None:
 
 
 @cache
-def best() -> FlowRun:
-    return FlowRun(CAVITY, CAVITY.settings(resolution=N, until=0.2)).run()
+def best() -> CaseRun:
+    return CaseRun(CAVITY, CAVITY.settings(resolution=N, until=0.2)).run()
 
 
 def test_a_short_run_reaches_its_time() -> None:

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 import sphear
-from sphear.cases.flow import FlowRun
-from sphear.schemes.settings import FlowSettings
+from sphear.cases.flow import CaseRun
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 
-def run(case: str, **settings: Any) -> FlowRun:
+def run(case: str, **settings: Any) -> CaseRun:
     return sphear.flow(case, preset="basa2009", **settings).run()
 
 
@@ -92,7 +92,7 @@ def test_as_dict_has_case_resolved_settings_metrics_and_performance() -> None:
         "time_step": done.flow.time_step,
     }  # fmt: skip
     assert {key: settings[key] for key in expected} == expected
-    assert set(FlowSettings.model_fields) <= set(settings)
+    assert set(WeaklyCompressibleSettings.model_fields) <= set(settings)
     assert settings["momentum"] == "squares"  # resolved: that of the summed density
     metrics = result["metrics"]
     assert set(metrics) == {

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.cases.flow.dam_break import standing
 from sphear.errors import SphearError
 from sphear.schemes.presets import preset_settings
@@ -24,13 +24,13 @@ SMALL: dict[str, dict[str, Any]] = {
 }
 
 
-def start(name: str, **changes: Any) -> FlowRun:
+def start(name: str, **changes: Any) -> CaseRun:
     case = FLOWS[name]
-    return FlowRun(case, case.settings(**{"scheme": "incompressible", **SMALL[name], **changes}))
+    return CaseRun(case, case.settings(**{"scheme": "incompressible", **SMALL[name], **changes}))
 
 
 @cache
-def whole(name: str) -> FlowRun:
+def whole(name: str) -> CaseRun:
     return start(name).run()
 
 
@@ -91,7 +91,7 @@ def test_a_state_is_a_copy() -> None:
         np.testing.assert_array_equal(state[name], values)
 
 
-def spoiled(name: str, values: Any, what: str = "u", **changes: Any) -> FlowRun:
+def spoiled(name: str, values: Any, what: str = "u", **changes: Any) -> CaseRun:
     """A run whose particle 5 has something happen to it after two outputs."""
     run = start(name, **changes)
 

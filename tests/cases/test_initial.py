@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 from sphear.boundaries import Box
 from sphear.boundaries.box import Side
 from sphear.cases.flow.initial import particles_between
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 Array = np.ndarray[Any, Any]
 
@@ -27,7 +27,7 @@ BOXES: dict[str, tuple[Side, Side]] = {
 @cache
 def placed(initial: str, sides: str = "channel", n: int = 10, seed: int = 0) -> tuple[Array, float]:
     """In a box from (1, -1) to (5, 1), twice as long as high."""
-    settings = FlowSettings.model_validate({"initial": initial, "resolution": n, "seed": seed})
+    settings = WeaklyCompressibleSettings.model_validate({"initial": initial, "resolution": n, "seed": seed})
     return particles_between(Box((1.0, -1.0), (5.0, 1.0), BOXES[sides]), settings)
 
 

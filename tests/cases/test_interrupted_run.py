@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.schemes.presets import PRESETS
 from sphear.simulation.saved import checksum, earlier, forget, read, recover
@@ -24,8 +24,8 @@ SCHEMES: dict[str, dict[str, Any]] = {
 }
 
 
-def start(scheme: str = "midpoint") -> FlowRun:
-    return FlowRun(CASE, CASE.settings(**{**PRESETS["basa2009"], **SCHEMES[scheme]}, resolution=10, until=0.1))
+def start(scheme: str = "midpoint") -> CaseRun:
+    return CaseRun(CASE, CASE.settings(**{**PRESETS["basa2009"], **SCHEMES[scheme]}, resolution=10, until=0.1))
 
 
 class Interrupted:
@@ -42,7 +42,7 @@ class Interrupted:
         return made
 
 
-def interrupted(run: FlowRun, call: int, path: Path) -> FlowRun:
+def interrupted(run: CaseRun, call: int, path: Path) -> CaseRun:
     run.flow.__dict__["_program"] = Interrupted(run.flow.__dict__["_program"], call)
     with pytest.raises(KeyboardInterrupt):
         run.run(keep=path)
@@ -76,16 +76,16 @@ def test_a_run_that_is_interrupted_at_its_last_output_makes_no_further_step(
 ) -> None:
     settings = CASE.settings(**{**PRESETS["basa2009"], **changes}, resolution=10, until=0.1)
     path = tmp_path / "state.npz"
-    whole = FlowRun(CASE, settings).run()
+    whole = CaseRun(CASE, settings).run()
 
     def interrupt(text: str) -> None:
         if stopped.flow.steps == whole.flow.steps:
             raise KeyboardInterrupt
 
-    stopped = FlowRun(CASE, settings)
+    stopped = CaseRun(CASE, settings)
     with pytest.raises(KeyboardInterrupt):
         stopped.run(interrupt, keep=path)
-    again = FlowRun(CASE, settings)
+    again = CaseRun(CASE, settings)
     again.restore(path)
     again.run()
     assert (again.end, again.flow.steps, again.history) == (whole.end, whole.flow.steps, whole.history)
@@ -158,8 +158,8 @@ def test_a_text_that_makes_no_sense_is_refused_in_one_sentence(what: str, tmp_pa
 
 
 def test_a_saved_run_is_known_by_any_alias(tmp_path: Path) -> None:
-    FlowRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="morris", resolution=10)).save(tmp_path / "state.npz")
-    FlowRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="E", resolution=10)).restore(tmp_path / "state.npz")
+    CaseRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="morris", resolution=10)).save(tmp_path / "state.npz")
+    CaseRun(FLOWS["cavity"], FLOWS["cavity"].settings(viscosity="E", resolution=10)).restore(tmp_path / "state.npz")
 
 
 @pytest.mark.parametrize("place", range(0, 1600, 37))

@@ -13,7 +13,7 @@ import pytest
 import sphear
 from sphear.algebra import Scalar, Vector
 from sphear.cases.flow import FLOWS
-from sphear.schemes.flow import Flow
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 from sphear.sweeps import Run, Store, plan, run_sweep
 
 
@@ -36,12 +36,12 @@ class Hiding(Mine):
         object.__setattr__(self, "hidden", hidden)
 
 
-def settings(run: sphear.FlowRun) -> dict[str, Any]:
+def settings(run: sphear.CaseRun) -> dict[str, Any]:
     found: dict[str, Any] = json.loads(json.dumps(run.as_dict()["settings"]))
     return found
 
 
-def flow(case: str = "cavity", **more: Any) -> sphear.FlowRun:
+def flow(case: str = "cavity", **more: Any) -> sphear.CaseRun:
     """By the incompressible scheme, which compiles little; the time loop of the explicit one takes seconds."""
     return sphear.flow(case, **{"scheme": "incompressible", "resolution": 12, "until": 0.02, **more}).run()
 
@@ -79,7 +79,7 @@ def test_an_object_is_the_name_that_stands_for_it(key: str) -> None:
     case = "poiseuille" if key == "ideal_gas" else "cavity"
     if scheme == "explicit":  # the same stages, with the same numbers in them
         one, other = (
-            Flow(FLOWS[case].problem(chosen), chosen)
+            WeaklyCompressibleFlow(FLOWS[case].problem(chosen), chosen)
             for chosen in (FLOWS[case].explicit(resolution=12, **chosen) for chosen in (by_object, by_name))
         )
         assert (one._step, one.sound_speed, one.time_step) == (other._step, other.sound_speed, other.time_step)

@@ -15,7 +15,7 @@ from sphear.errors import SphearError
 SMALL: dict[str, Any] = {"resolution": 10, "threads": 1}
 
 
-def channel(*observers: sphear.Observer, beyond: tuple[str, ...] = (), **settings: Any) -> sphear.FlowRun:
+def channel(*observers: sphear.Observer, beyond: tuple[str, ...] = (), **settings: Any) -> sphear.CaseRun:
     return sphear.flow("poiseuille", preset="basa2009", observers=observers, beyond=beyond, **{**SMALL, **settings})
 
 
@@ -63,9 +63,9 @@ def test_a_breakdown_ends_a_run_that_goes_on_beyond_failures() -> None:
 
 
 def test_numbers_of_ones_own_are_saved_with_the_history(tmp_path: Path) -> None:
-    def started(until: float) -> sphear.FlowRun:
+    def started(until: float) -> sphear.CaseRun:
         settings = POISEUILLE.settings(**SMALL, until=until)
-        return sphear.FlowRun(POISEUILLE, settings, measured=lambda run: {"greatest": float(run.flow.velocities.max())})
+        return sphear.CaseRun(POISEUILLE, settings, measured=lambda run: {"greatest": float(run.flow.velocities.max())})
 
     first = started(0.01).run()
     first.save(tmp_path / "state.npz")

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from sphear.boundaries.shapes import written
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 
 
-def start(name: str, **changes: Any) -> FlowRun:
+def start(name: str, **changes: Any) -> CaseRun:
     chosen = FLOWS[name]
-    return FlowRun(chosen, chosen.settings(**{"scheme": "incompressible", "resolution": 24, **changes}))
+    return CaseRun(chosen, chosen.settings(**{"scheme": "incompressible", "resolution": 24, **changes}))
 
 
 def test_a_cylinder_of_ones_own_is_that_of_the_case_with_a_cylinder() -> None:

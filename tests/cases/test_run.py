@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.schemes.presets import BY_SCHEME, PRESETS
 
@@ -20,11 +20,11 @@ SETTINGS: dict[str, dict[str, Any]] = {
 }
 
 
-def start(which: str = "basa2009", case: str = "poiseuille", **changes: Any) -> FlowRun:
-    return FlowRun(FLOWS[case], FLOWS[case].settings(**{**SETTINGS[which], **changes}))
+def start(which: str = "basa2009", case: str = "poiseuille", **changes: Any) -> CaseRun:
+    return CaseRun(FLOWS[case], FLOWS[case].settings(**{**SETTINGS[which], **changes}))
 
 
-def interrupt(run: FlowRun, path: Path, outputs: int = 3) -> FlowRun:
+def interrupt(run: CaseRun, path: Path, outputs: int = 3) -> CaseRun:
     """Ctrl-C at one of the outputs."""
 
     def progress(text: str) -> None:
@@ -37,7 +37,7 @@ def interrupt(run: FlowRun, path: Path, outputs: int = 3) -> FlowRun:
 
 
 @cache
-def whole(which: str) -> FlowRun:
+def whole(which: str) -> CaseRun:
     return start(which).run()
 
 
@@ -100,7 +100,7 @@ def test_a_run_may_go_on_for_longer_than_was_planned(tmp_path: Path) -> None:
     assert longer.run().history[-1]["time"] == pytest.approx(0.2, rel=0.02)
 
 
-def refusal(run: FlowRun, path: Path) -> str:
+def refusal(run: CaseRun, path: Path) -> str:
     """The one sentence."""
     before = run.flow.state()
     with pytest.raises(SphearError) as raised:
@@ -151,7 +151,7 @@ def test_arrays_without_a_run_are_refused(tmp_path: Path) -> None:
 def test_the_best_settings_are_ten_times_as_accurate_as_the_papers() -> None:
     """Morris' term has an error of 2 % at t* = 5 here."""
     case = FLOWS["poiseuille"]
-    done = FlowRun(case, case.settings(reynolds=0.5, resolution=20, until=1.0)).run()
+    done = CaseRun(case, case.settings(reynolds=0.5, resolution=20, until=1.0)).run()
     assert done.end == "time"
     assert done.history[-1]["rms_error"] < 0.003
 

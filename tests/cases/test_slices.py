@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.cases.flow import run as module
 from sphear.cases.flow.history import CaseHistory
 from sphear.errors import SphearError
@@ -29,9 +29,9 @@ RUNS: dict[str, tuple[str, dict[str, Any]]] = {
 FEW = 5  # outputs of a run, so that there are steps between them
 
 
-def start(which: str = "explicit", **changes: Any) -> FlowRun:
+def start(which: str = "explicit", **changes: Any) -> CaseRun:
     case, settings = RUNS[which]
-    return FlowRun(FLOWS[case], FLOWS[case].settings(**{**settings, "threads": 1, **changes}))
+    return CaseRun(FLOWS[case], FLOWS[case].settings(**{**settings, "threads": 1, **changes}))
 
 
 @pytest.fixture(autouse=True)
@@ -44,14 +44,14 @@ def single_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pace, "SLICE", 0.0)
 
 
-def stopped_after(run: FlowRun, slices: int, keep: Path | None = None) -> FlowRun:
+def stopped_after(run: CaseRun, slices: int, keep: Path | None = None) -> CaseRun:
     calls = iter(range(10**6))
     with pytest.raises(KeyboardInterrupt):
         run.run(keep=keep, stopped=lambda: next(calls) == slices)
     return run
 
 
-def equal(one: FlowRun, other: FlowRun) -> bool:
+def equal(one: CaseRun, other: CaseRun) -> bool:
     assert (one.end, one.flow.time, one.flow.steps) == (other.end, other.flow.time, other.flow.steps)
     assert one.history == other.history
     for name, values in other.flow.state().items():
@@ -91,7 +91,7 @@ def test_an_output_that_ctrl_c_prevented_is_made_when_the_run_goes_on(
 ) -> None:
     whole, path = start().run(), tmp_path / "state.npz"
 
-    def interrupt(history: CaseHistory, run: FlowRun) -> None:
+    def interrupt(history: CaseHistory, run: CaseRun) -> None:
         raise KeyboardInterrupt
 
     run = start()

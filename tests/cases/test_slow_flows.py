@@ -44,7 +44,7 @@ def test_a_slow_cavity_keeps_its_corners(resolution: int, until: float) -> None:
     assert run.history[-1]["kinetic_energy"] == pytest.approx(0.034, rel=0.1)  # a grid program: 0.0335
 
 
-def implicit(case: str, until: float, **settings: Any) -> sphear.FlowRun:
+def implicit(case: str, until: float, **settings: Any) -> sphear.CaseRun:
     chosen = {"scheme": "incompressible", "viscous_step": "crank_nicolson", "resolution": 13, **settings}
     return sphear.flow(case, reynolds=1e-3, until=until, **chosen).run()
 
@@ -63,7 +63,7 @@ def test_a_step_that_is_named_is_taken() -> None:
 def test_explicit_steps_do_not_follow_the_run() -> None:
     case = FLOWS["poiseuille"]
     chosen = {"scheme": "incompressible", "reynolds": 1.0, "resolution": 13}
-    short, long = (sphear.FlowRun(case, case.settings(**chosen, until=until)) for until in (1e-3, 5.0))
+    short, long = (sphear.CaseRun(case, case.settings(**chosen, until=until)) for until in (1e-3, 5.0))
     assert short.flow.time_step == long.flow.time_step
 
 

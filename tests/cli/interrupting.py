@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from sphear.cases.flow import FlowRun
+from sphear.cases.flow import CaseRun
 from sphear.cases.flow.history import CaseHistory
 
 
@@ -16,7 +16,7 @@ def interrupted_at(output: int, monkeypatch: pytest.MonkeyPatch) -> Iterator[Non
     """Have Ctrl-C come when a run has made so many outputs."""
     watch = CaseHistory.watch
 
-    def watched(history: CaseHistory, run: FlowRun) -> None:
+    def watched(history: CaseHistory, run: CaseRun) -> None:
         watch(history, run)
         if len(run.history) == output:
             raise KeyboardInterrupt

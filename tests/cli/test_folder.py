@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FlowRun
+from sphear.cases.flow import CaseRun
 from sphear.cases.flow import run as module
 from sphear.results import OutputFolder
 from sphear.results.lock import locked
@@ -113,7 +113,7 @@ def test_results_that_cannot_be_written_are_written_later(
         " and its state is in results/poiseuille-state.npz: the same command with --resume writes the results\n"
     )
     assert files() == {"poiseuille-state.npz"}
-    monkeypatch.setattr(FlowRun, "_advance", None)  # nothing is computed
+    monkeypatch.setattr(CaseRun, "_advance", None)  # nothing is computed
     resumed = sphear(*CASE, "--until", "0.1", "--resume", "--json").json()
     assert resumed == {key: value for key, value in written().items() if key != "history"}
     assert resumed["metrics"]["end"] == "time"

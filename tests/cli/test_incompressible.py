@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FlowRun
+from sphear.cases.flow import CaseRun
 from sphear.cases.flow.history import CaseHistory
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.presets import preset_settings
@@ -89,7 +89,7 @@ def test_a_failure_is_reported_with_files_and_without_warnings(sphear: Run) -> N
 def test_an_interrupted_run_is_gone_on_with(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     watch, short = CaseHistory.watch, (*CAVITY, "--set", "max_steps=6")
 
-    def watched(history: CaseHistory, run: FlowRun) -> None:
+    def watched(history: CaseHistory, run: CaseRun) -> None:
         watch(history, run)
         if len(run.history) == 3:
             raise KeyboardInterrupt

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FlowRun
+from sphear.cases.flow import CaseRun
 from sphear.cases.flow.history import CaseHistory
 from sphear.cli.signals import Signals
 from sphear.results import OutputFolder
@@ -52,15 +52,15 @@ def whole(sphear: Run) -> Any:
 
 @pytest.mark.parametrize("name", SENT)
 def test_a_signal_in_a_run_keeps_the_present_state(sphear: Run, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = FlowRun._advance
+    advance = CaseRun._advance
 
-    def advanced(run: FlowRun, *arguments: Any) -> None:
+    def advanced(run: CaseRun, *arguments: Any) -> None:
         advance(run, *arguments)
         if run.flow.steps == 3:
             send(name)
 
     with monkeypatch.context() as patched:
-        patched.setattr(FlowRun, "_advance", advanced)
+        patched.setattr(CaseRun, "_advance", advanced)
         stopped = sphear(*CASE, "--json")
     assert (stopped.status, stopped.out) == (SENT[name][1], "")
     assert stopped.err == (
@@ -155,7 +155,7 @@ def test_the_status_is_that_of_ctrl_c_where_no_signal_was_heard() -> None:
 def test_a_signal_without_a_folder_keeps_nothing_and_says_so(sphear: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     watch = CaseHistory.watch
 
-    def watched(history: CaseHistory, run: FlowRun) -> None:
+    def watched(history: CaseHistory, run: CaseRun) -> None:
         watch(history, run)
         send("SIGTERM")
 

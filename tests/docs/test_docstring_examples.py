@@ -30,6 +30,7 @@ FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 REGISTRIES = (
     sphear.CORRECTIONS,
     sphear.EQUATIONS_OF_STATE,
+    sphear.INTEGRATORS,
     sphear.KERNELS,
     sphear.PRECONDITIONERS,
     sphear.SHIFTING,

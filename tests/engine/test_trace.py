@@ -13,6 +13,7 @@ import pytest
 from sphear import CORRECTIONS, KERNELS, VISCOSITY, Cleary, CubicSpline, Kernel, WendlandC2, algebra
 from sphear.corrections.renormalised import safe_inverse
 from sphear.engine.formula import Sum, traced
+from sphear.engine.preparation import form_of
 from sphear.engine.structure import fill, kind, leaves, parameters, with_symbols
 from sphear.engine.trace import Symbol, Trace
 from sphear.interactions import ViscousAcceleration
@@ -102,9 +103,7 @@ def test_a_traced_viscous_term_is_the_term(viscosity: str, correction: str) -> N
     shapes = (("volume", 0.0), ("velocity", (0.0,) * 3), ("dynamic_viscosity", 0.0), ("density", 0.0))
     own_only: tuple[Any, ...] = ()
     if preparation is not None:
-        solved = hasattr(preparation, "solve")
-        result = preparation.template(3) if solved else traced(preparation, 3, shapes[:1]).result
-        own_only = (("prepared", result),)
+        own_only = (("prepared", form_of(preparation, 3, traced(preparation, 3, shapes[:1]).result)),)
     code = traced(interaction, 3, shapes, own_only)
 
     generator = np.random.default_rng(1)

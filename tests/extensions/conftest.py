@@ -19,6 +19,7 @@ REGISTRIES: tuple[Registry[Any], ...] = (
     sphear.CORRECTIONS,
     sphear.EQUATIONS_OF_STATE,
     sphear.SHIFTING,
+    sphear.INTEGRATORS,
     sphear.WALL_MODELS,
     sphear.PRECONDITIONERS,
 )

@@ -13,7 +13,7 @@ import pytest
 import sphear
 from sphear.algebra import Scalar, Vector
 from sphear.cases.flow import FLOWS
-from sphear.schemes.flow import Flow
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 
 X = np.random.default_rng(0).random((300, 2))
 F = X[:, 0] ** 2 * X[:, 1]
@@ -61,7 +61,7 @@ def test_an_object_that_has_a_name_is_written_by_it() -> None:
 
 def test_a_flow_takes_an_equation_of_state_by_name() -> None:
     chosen = [FLOWS["cavity"].explicit(resolution=12, equation_of_state=name) for name in ("My-Equation", "linear")]
-    one, other = (Flow(FLOWS["cavity"].problem(settings), settings) for settings in chosen)
+    one, other = (WeaklyCompressibleFlow(FLOWS["cavity"].problem(settings), settings) for settings in chosen)
     assert one.settings.equation_of_state == "my_equation"
     assert one.sound_speed == other.sound_speed
     one.advance(2)

@@ -1,15 +1,20 @@
-"""Ways of shifting, wall models and preconditioners of one's own, in a file each, by name and as objects."""
+"""Ways of shifting, wall models, integrators and preconditioners of one's own, by name and as objects."""
 
 from __future__ import annotations
 
 import pickle
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import pytest
 
 import sphear
+from sphear.algebra import add, scale
+from sphear.engine.stages import EnterBox, PerParticle, Rows, Stage
 from sphear.interactions import Part
+from sphear.schemes.weakly_compressible.integrators import Integrated, Step
 from sphear.sweeps.plan import plan
 
 
@@ -39,6 +44,31 @@ class Dynamic(sphear.ExplicitWallModel):
     integrates_density = True
 
 
+@dataclass(frozen=True)
+class Kicked:
+    """Velocity and density a step later, and the place with the new velocity."""
+
+    time: float
+
+    def at(self, own: Any) -> dict[str, Any]:
+        velocity = add(own.velocity, scale(self.time, own.acceleration))
+        place = add(own.position, scale(self.time, velocity))
+        return {"velocity": velocity, "position": place, "density": own.density + self.time * own.density_rate}
+
+
+class SymplecticEuler(sphear.Integrator):
+    """Rates of the start, and the new velocity for the places; `part` of a step is made."""
+
+    part: float = 1.0
+
+    def kept(self, of: Integrated) -> tuple[str, ...]:
+        return ()
+
+    def step(self, evaluation: Sequence[Stage], time_step: float, of: Integrated, fastest: float) -> Step:
+        move = PerParticle(Kicked(self.part * time_step), Rows.FLUID)
+        return Step((*evaluation, move, EnterBox(fastest)), (0, len(evaluation)), len(evaluation))
+
+
 @pytest.fixture
 def own() -> None:
     """Names for all."""
@@ -46,6 +76,7 @@ def own() -> None:
     sphear.shifting_method("sideways")(Sideways)
     sphear.wall_model("twins")(Twins)
     sphear.preconditioner("own_diagonal")(Diagonal)
+    sphear.integrator("symplectic_euler", aliases=("kick_drift",))(SymplecticEuler)
 
 
 COMMON: dict[str, Any] = {"scheme": "incompressible", "resolution": 12, "reynolds": 10.0, "time_step": 1e-3}
@@ -87,6 +118,8 @@ def test_a_sweep_sends_the_object_along_with_its_name() -> None:
     sent = {key: value.item for key, value in run.sent.items() if key in ("shifting", "walls")}
     assert sent == {"shifting": Sideways(), "walls": Twins()}
     assert pickle.loads(pickle.dumps(sent)) == sent
+    (run,) = plan("cavity", {"integrator": ["symplectic_euler"]}, {"resolution": 12, "until": 0.1})
+    assert run.sent["integrator"].item == SymplecticEuler()
 
 
 @pytest.mark.usefixtures("own")
@@ -105,10 +138,32 @@ def test_a_wall_model_of_the_explicit_scheme_is_one_class() -> None:
         sphear.Incompressible(walls="dynamic")
 
 
+@pytest.mark.usefixtures("own")
+def test_an_integrator_is_what_its_stages_are() -> None:
+    half: Any = SymplecticEuler(part=0.5)  # type: ignore[call-arg]
+    common: dict[str, Any] = {"resolution": 12, "reynolds": 10.0, "transport": "none", "threads": 1}
+    for integrator, part in (("Kick-Drift", 1.0), (half, 0.5)):
+        flow: Any = sphear.flow("cavity", integrator=integrator, **common).flow
+        places, density, dt = flow.positions.copy(), flow.density.copy(), part * flow.time_step
+        flow.advance(1)
+        np.testing.assert_allclose(flow.velocities, dt * flow.acceleration, rtol=1e-12)
+        np.testing.assert_allclose(flow.positions, places + dt * flow.velocities, rtol=1e-12)
+        np.testing.assert_allclose(flow.density, density + dt * flow.density_rate, rtol=1e-12)
+        assert np.abs(flow.velocities).max() > 0.0
+    assert sphear.WeaklyCompressible(integrator="kick_drift").time_integrator == SymplecticEuler()
+    assert sphear.WeaklyCompressible(integrator=half).integrator == half
+
+
 def test_one_without_its_method_is_refused() -> None:
     class NoDrift(sphear.ShiftingMethod): ...
 
     with pytest.raises(sphear.SphearError, match="the class NoDrift lacks the method drift of ShiftingMethod"):
         sphear.shifting_method("no_drift")(NoDrift)
+
+    class NoStep(sphear.Integrator):
+        kept = sphear.Midpoint.kept
+
+    with pytest.raises(sphear.SphearError, match="the class NoStep lacks the method step of Integrator"):
+        sphear.integrator("no_step")(NoStep)
     with pytest.raises(sphear.SphearError, match=r"@sphear\.wall_model names a class derived from sphear\.WallModel"):
         sphear.wall_model("walls")(NoDrift)  # type: ignore[type-var]

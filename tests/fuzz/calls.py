@@ -215,9 +215,9 @@ def _term(draw: Draw, _folder: Path) -> Made:
 
 def _settings(draw: Draw, _folder: Path) -> Made:
     from sphear.schemes.incompressible.settings import IncompressibleSettings
-    from sphear.schemes.settings import FlowSettings
+    from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
-    kind = draw.choice((FlowSettings, IncompressibleSettings))
+    kind = draw.choice((WeaklyCompressibleSettings, IncompressibleSettings))
     key = draw.choice(
         ("reynolds", "resolution", "until", "time_step", "max_steps", "seed", "initial", "q", "h_over_dx")
     )

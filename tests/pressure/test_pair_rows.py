@@ -28,13 +28,13 @@ def dense(weights: Array, mirrored: Array | None, jump: Array, fixed: Array, unk
     walls = np.where((mirrored != 0).any(axis=1), walls, 0.0)
     matrix = fluid + walls @ mirrored
     matrix[np.arange(rows), np.arange(rows)] -= fluid.sum(axis=1) + walls.sum(axis=1)
-    known = walls @ jump
+    jump_terms = walls @ jump
     matrix[:, fixed] = np.where(np.eye(rows, unknowns, dtype=bool)[:, fixed], matrix[:, fixed], 0.0)
     for row in np.flatnonzero(fixed[:rows]):
         diagonal = -fluid[row].sum() - walls[row].sum()
-        matrix[row], known[row] = 0.0, 0.0
+        matrix[row], jump_terms[row] = 0.0, 0.0
         matrix[row, row] = diagonal if diagonal < 0 else -1.0
-    return matrix, known
+    return matrix, jump_terms
 
 
 def narrow(matrix: Any) -> csr_array:
@@ -84,7 +84,7 @@ def test_it_is_what_dense_arithmetic_gives(seed: int, unknowns: int, walls: int,
     given_jump = np.zeros(0) if natural else jump
     expected, right = dense(weights.toarray(), None if natural else mirrored.toarray(), given_jump, fixed, unknowns)
     np.testing.assert_allclose(rows.assembled().toarray(), expected, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(rows.known, right, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(rows.jump_terms, right, rtol=0, atol=1e-12)
     np.testing.assert_allclose(rows.diagonal(), expected.diagonal(), rtol=0, atol=1e-12)
     vector = np.random.default_rng(seed).random(unknowns)
     np.testing.assert_allclose(rows.times(vector), expected @ vector, rtol=0, atol=1e-12)
@@ -96,7 +96,7 @@ def test_the_numbers_are_the_same_on_any_number_of_threads() -> None:
     vector = np.random.default_rng(1).random(20)
     np.testing.assert_array_equal(one.times(vector), three.times(vector))
     np.testing.assert_array_equal(one.diagonal(), three.diagonal())
-    np.testing.assert_array_equal(one.known, three.known)
+    np.testing.assert_array_equal(one.jump_terms, three.jump_terms)
 
 
 @given(seed=st.integers(0, 99), step=st.integers(1, 9))
@@ -121,11 +121,11 @@ def test_walls_may_see_much_fluid(walls: int) -> None:
     mirrored = narrow(np.random.default_rng(0).random((walls, unknowns)) * 0.8 + 0.1)
     jump, fixed = np.arange(walls, dtype=float), np.zeros(unknowns, bool)
     rows = paired(behind, mirrored, jump, fixed)
-    matrix, known = rows.assembled(), rows.known
+    matrix, jump_terms = rows.assembled(), rows.jump_terms
     expected, right = dense(behind.toarray(), mirrored.toarray(), jump, fixed, unknowns)
     assert matrix.nnz == unknowns**2
     np.testing.assert_allclose(matrix.toarray(), expected, atol=1e-12)
-    np.testing.assert_allclose(known, right, atol=1e-12)
+    np.testing.assert_allclose(jump_terms, right, atol=1e-12)
 
 
 def test_rows_sum_to_zero_where_walls_continue_a_constant() -> None:
@@ -141,9 +141,9 @@ def test_a_wall_whose_fluid_weighs_nothing_is_left_out() -> None:
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 4.0]]))
     mirrored = csr_array((np.zeros(1), np.zeros(1, np.int32), np.array([0, 1], np.int32)), shape=(1, 2))
     rows = paired(weights, mirrored, np.array([5.0]), np.zeros(2, bool))
-    matrix, known = rows.assembled(), rows.known
+    matrix, jump_terms = rows.assembled(), rows.jump_terms
     np.testing.assert_array_equal(matrix.toarray(), [[-2.0, 2.0], [2.0, -2.0]])
-    assert not known.any()
+    assert not jump_terms.any()
 
 
 def test_a_row_that_walls_would_give_a_positive_diagonal_is_without_them() -> None:
@@ -151,14 +151,14 @@ def test_a_row_that_walls_would_give_a_positive_diagonal_is_without_them() -> No
     weights = narrow(np.array([[0.0, 2.0, 3.0], [2.0, 0.0, 3.0]]))
     mirrored = narrow(np.array([[1.9, -0.9]]))
     rows = paired(weights, mirrored, np.array([5.0]), np.zeros(2, bool))
-    matrix, known = rows.assembled(), rows.known
+    matrix, jump_terms = rows.assembled(), rows.jump_terms
     np.testing.assert_allclose(matrix.toarray(), [[-2.0, 2.0], [2.0 + 3.0 * 1.9, -5.0 - 3.0 * 0.9]], atol=1e-14)
-    np.testing.assert_array_equal(known, [0.0, 15.0])
+    np.testing.assert_array_equal(jump_terms, [0.0, 15.0])
 
 
 def test_a_fixed_particle_that_is_alone_keeps_a_diagonal() -> None:
     nothing = csr_array((np.zeros(0), np.zeros(0, np.int32), np.zeros(3, np.int32)), shape=(2, 2))
     rows = paired(nothing, None, np.zeros(0), np.array([True, True]))
-    matrix, known = rows.assembled(), rows.known
+    matrix, jump_terms = rows.assembled(), rows.jump_terms
     np.testing.assert_array_equal(matrix.toarray(), [[-1.0, 0.0], [0.0, -1.0]])
-    assert not known.any()
+    assert not jump_terms.any()

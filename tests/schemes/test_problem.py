@@ -10,10 +10,10 @@ import pytest
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Rectangle
 from sphear.errors import SphearError
-from sphear.schemes.base import flow_in_time
+from sphear.schemes.base import flow_of
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 X = np.stack(np.meshgrid(np.arange(8) + 0.5, np.arange(8) + 0.5), axis=-1).reshape(-1, 2) / 8
 
@@ -64,14 +64,17 @@ def test_lists_are_as_good_as_arrays() -> None:
     np.testing.assert_array_equal(given.positions, X)
 
 
-@pytest.mark.parametrize("settings", [FlowSettings(), IncompressibleSettings()])
-def test_a_flow_needs_particles(settings: FlowSettings | IncompressibleSettings) -> None:
+@pytest.mark.parametrize("settings", [WeaklyCompressibleSettings(), IncompressibleSettings()])
+def test_a_flow_needs_particles(settings: WeaklyCompressibleSettings | IncompressibleSettings) -> None:
     nothing = np.empty((0, 2))
     with pytest.raises(SphearError, match=r"^the problem has no particles$"):
-        flow_in_time(problem(positions=nothing, velocities=nothing), settings)
+        flow_of(problem(positions=nothing, velocities=nothing), settings)
 
 
-BOTH: list[FlowSettings | IncompressibleSettings] = [FlowSettings(threads=1), IncompressibleSettings(threads=1)]
+BOTH: list[WeaklyCompressibleSettings | IncompressibleSettings] = [
+    WeaklyCompressibleSettings(threads=1),
+    IncompressibleSettings(threads=1),
+]
 MASKED = np.ma.MaskedArray(X, mask=np.arange(X.size).reshape(X.shape) == 3)
 
 NOT_A_NUMBER: dict[str, tuple[dict[str, Any], str]] = {
@@ -132,27 +135,27 @@ WRONG_STARTS: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("settings", BOTH, ids=lambda chosen: chosen.scheme)
 @pytest.mark.parametrize("what", WRONG_STARTS)
 def test_a_start_that_cannot_be_is_refused_by_both_schemes(
-    what: str, settings: FlowSettings | IncompressibleSettings
+    what: str, settings: WeaklyCompressibleSettings | IncompressibleSettings
 ) -> None:
     changes, message = WRONG_STARTS[what]
     with pytest.raises(SphearError, match=message):
-        flow_in_time(problem(**changes), settings)
+        flow_of(problem(**changes), settings)
 
 
 @pytest.mark.parametrize("settings", BOTH, ids=lambda chosen: chosen.scheme)
-def test_starts_that_are_allowed(settings: FlowSettings | IncompressibleSettings) -> None:
+def test_starts_that_are_allowed(settings: WeaklyCompressibleSettings | IncompressibleSettings) -> None:
     """A lattice that is stretched by a tenth along one axis, particles a period away, and those on a wall's side."""
     stretched = Box((0.0, 0.0), (1.1, 1.0), ("periodic", "periodic"))
-    flow_in_time(problem(positions=X * np.array([1.1, 1.0]), box=stretched), settings)
-    flow_in_time(problem(positions=X + np.array([3.0, -2.0])), settings)
-    flow_in_time(problem(positions=X, box=WALLED), settings)
+    flow_of(problem(positions=X * np.array([1.1, 1.0]), box=stretched), settings)
+    flow_of(problem(positions=X + np.array([3.0, -2.0])), settings)
+    flow_of(problem(positions=X, box=WALLED), settings)
 
 
 @pytest.mark.parametrize(("spacing", "said"), [(0.25, "at 0.125, not at 0.25"), (0.0625, "at 0.125, not at 0.0625")])
 def test_the_spacing_of_a_fluid_with_a_surface_is_that_of_its_nearest_particles(spacing: float, said: str) -> None:
     tank = Box((0.0, 0.0), (3.0, 2.0), ("walls", "walls"))
     with pytest.raises(SphearError, match=said):
-        flow_in_time(problem(box=tank, free_surface=True, spacing=spacing), IncompressibleSettings(threads=1))
+        flow_of(problem(box=tank, free_surface=True, spacing=spacing), IncompressibleSettings(threads=1))
 
 
 def test_fluid_that_a_solid_cuts_in_two_is_refused_at_the_start() -> None:
@@ -167,12 +170,12 @@ def test_fluid_that_a_solid_cuts_in_two_is_refused_at_the_start() -> None:
     with pytest.raises(
         SphearError, match=r"falls into 2 parts without a common neighbour.* nothing fixes the pressure"
     ):
-        flow_in_time(cut, IncompressibleSettings(threads=1))
+        flow_of(cut, IncompressibleSettings(threads=1))
 
 
 def test_no_particle_moves_further_than_a_share_of_a_spacing_in_a_step() -> None:
-    usual = flow_in_time(problem(), IncompressibleSettings(threads=1, reynolds=1e5, resolution=8))
+    usual = flow_of(problem(), IncompressibleSettings(threads=1, reynolds=1e5, resolution=8))
     assert usual.limits["cfl"] == min(usual.limits["cfl"], usual.limits["spacing"])
     wide = problem(kinematic_viscosity=0.0)
-    far = flow_in_time(wide, IncompressibleSettings(threads=1, h_over_dx=3, resolution=8, shifting="none"))
+    far = flow_of(wide, IncompressibleSettings(threads=1, h_over_dx=3, resolution=8, shifting="none"))
     assert far.time_step == far.limits["spacing"] == pytest.approx(0.63 * 0.125)

@@ -10,7 +10,7 @@ import sphear
 from sphear.equations_of_state import BatchelorTait, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.presets import BY_SCHEME
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 BEST: dict[str, Any] = {
     "viscosity": "fatehi_manzari", "correction": "bonet_lok", "kernel": "wendland_c2", "h_over_dx": None,
@@ -62,7 +62,7 @@ BESIDE: list[tuple[str, Any, dict[str, Any]]] = [
 
 
 def test_the_defaults_are_the_best_settings() -> None:
-    assert {name: getattr(FlowSettings(), name) for name in BEST} == BEST
+    assert {name: getattr(WeaklyCompressibleSettings(), name) for name in BEST} == BEST
 
 
 @pytest.mark.parametrize("case", ["poiseuille", "couette", "taylor-green", "cavity"])
@@ -73,7 +73,7 @@ def test_a_flow_without_a_preset_has_the_best_settings(case: str) -> None:
 
 @pytest.mark.parametrize(("name", "value", "others"), BESIDE, ids=lambda x: "" if isinstance(x, dict) else str(x))
 def test_defaults_give_way_to_what_is_named(name: str, value: Any, others: dict[str, Any]) -> None:
-    settings = FlowSettings(**{name: value})
+    settings = WeaklyCompressibleSettings(**{name: value})
     assert {key: getattr(settings, key) for key in BEST} | {name: value} == {**BEST, **others, name: value}
     assert settings.model_fields_set == {name}
     assert settings.without_effect(walled=True) == []
@@ -81,12 +81,12 @@ def test_defaults_give_way_to_what_is_named(name: str, value: Any, others: dict[
 
 @pytest.mark.parametrize(("name", "value", "others"), BESIDE, ids=lambda x: "" if isinstance(x, dict) else str(x))
 def test_settings_written_down_and_read_again_are_the_same(name: str, value: Any, others: dict[str, Any]) -> None:
-    settings = FlowSettings(**{name: value})
+    settings = WeaklyCompressibleSettings(**{name: value})
     written = settings.model_dump(exclude={name}) | {name: value}  # an object is no text
-    again = FlowSettings(**written)
+    again = WeaklyCompressibleSettings(**written)
     assert again == settings
     assert again.without_effect(walled=True) == []
-    named = FlowSettings(**{key: written[key] for key in settings.model_fields_set})
+    named = WeaklyCompressibleSettings(**{key: written[key] for key in settings.model_fields_set})
     assert named == settings
     assert named.model_fields_set == settings.model_fields_set
 
@@ -98,7 +98,7 @@ def test_settings_written_down_and_read_again_are_the_same(name: str, value: Any
 def test_densities_beside_walls_of_particles_are_integrated_where_that_is_named(
     walls: str, named: dict[str, Any]
 ) -> None:
-    settings = FlowSettings.model_validate({"walls": walls, **named})
+    settings = WeaklyCompressibleSettings.model_validate({"walls": walls, **named})
     form = "molteni" if walls == "adami" else "antuono"
     assert (settings.density, settings.diffusion_form, settings.wall_divergence) == ("continuity", form, "continued")
 
@@ -137,7 +137,7 @@ def test_every_choice_is_tried_alone() -> None:
 )
 def test_settings_that_are_named_do_not_give_way(named: dict[str, Any], sentence: str) -> None:
     with pytest.raises(SphearError, match=sentence):
-        FlowSettings(**named)
+        WeaklyCompressibleSettings(**named)
 
 
 PAPERS: dict[str, tuple[str, dict[str, Any]]] = {
@@ -206,4 +206,4 @@ def test_a_preset_that_a_scheme_has_not_is_refused_with_those_it_has(preset: str
 )
 def test_settings_of_before_are_told_by_their_names_of_now(name: str, said: str) -> None:
     with pytest.raises(SphearError, match=f"the setting {name} of 0.1 is .*{said}"):
-        FlowSettings(**cast(Any, {name: True}))
+        WeaklyCompressibleSettings(**cast(Any, {name: True}))

@@ -34,6 +34,7 @@ def flow(of: Problem, speed: float, rise: float = 0.0) -> Any:
         velocities=np.tile((speed, 0.0), (len(of.positions), 1)),
         positions=of.positions + np.array((0.0, rise)),
         count=len(of.positions),
+        energy_budget=None,
     )
 
 
@@ -49,7 +50,7 @@ def flow(of: Problem, speed: float, rise: float = 0.0) -> Any:
     ],
 )
 def test_nonsense_is_named(of: Problem, speed: float, rise: float, said: str) -> None:
-    assert said in (Watch(of).found(flow(of, speed, rise)) or "")
+    assert said in (Watch(of).fault(flow(of, speed, rise)) or "")
 
 
 @pytest.mark.parametrize(
@@ -63,7 +64,7 @@ def test_nonsense_is_named(of: Problem, speed: float, rise: float, said: str) ->
     ],
 )
 def test_what_a_fluid_does_is_let_go_on(of: Problem, speed: float, rise: float) -> None:
-    assert Watch(of).found(flow(of, speed, rise)) is None
+    assert Watch(of).fault(flow(of, speed, rise)) is None
 
 
 def test_vortices_that_coarse_particles_blow_up_end_as_failed() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.references.cavity import cavity_cylinder, ghia, mac
 from sphear.results import OutputFolder
@@ -17,7 +17,7 @@ from sphear.studies import is_long, study_of
 from sphear.studies.kept import as_text, kept, store
 from sphear.studies.result import StudyResult
 from sphear.studies.zheng2018 import cavities
-from sphear.studies.zheng2018.cavities import CASES, SIZES, TERMS, Study, Wanted, chosen, compute_run, wanted
+from sphear.studies.zheng2018.cavities import CASES, SIZES, TERMS, Study, Wanted, compute_run, selected, wanted
 from sphear.studies.zheng2018.cavity_errors import falling, leads, limit, order
 from sphear.studies.zheng2018.cavity_rows import curves, data_of, deviations, identity, least, merged, scores
 from sphear.studies.zheng2018.cavity_shown import FOUR, capped, lacking, listed
@@ -231,12 +231,12 @@ def test_new_rows_replace_old_ones_and_keep_the_rest() -> None:
 
 
 def test_runs_are_chosen_by_size_and_term() -> None:
-    few = chosen(["cavity"], at_most=50, terms=("oger",))
+    few = selected(["cavity"], at_most=50, terms=("oger",))
     assert {(each.resolution, each.reynolds, each.preset) for each in few} == {
         (40, 1000.0, "defaults"), (40, 1000.0, "zheng2018"), (40, 1000.0, "zheng2018 with shifting"),
         (50, 100.0, "defaults"),
     }  # fmt: skip
-    assert len(chosen(CASES)) == len(set(chosen(CASES))) == sum(len(wanted(case)) for case in CASES)
+    assert len(selected(CASES)) == len(set(selected(CASES))) == sum(len(wanted(case)) for case in CASES)
     assert {each.resolution for each in wanted("cavity", quick=True)} == set(cavities.QUICK_SIZES)
 
 
@@ -304,7 +304,7 @@ def test_a_result_of_other_defaults_is_computed_again(own_store: Path) -> None:
 def test_an_interrupted_run_goes_on_where_it_was_saved(own_store: Path) -> None:
     run = Wanted("cavity", "morris", 10, until=0.4).run()
     straight = compute_run(run.case, run.given)
-    half = FlowRun(FLOWS["cavity"], run.settings.model_copy(update={"until": 0.2, "threads": 1})).run()
+    half = CaseRun(FLOWS["cavity"], run.settings.model_copy(update={"until": 0.2, "threads": 1})).run()
     saved = own_store / "zheng2018" / f"{run.key}.npz"
     half.save(saved)
     on = compute_run(run.case, run.given)
@@ -313,7 +313,7 @@ def test_an_interrupted_run_goes_on_where_it_was_saved(own_store: Path) -> None:
     np.testing.assert_allclose(on["profiles"]["u"], straight["profiles"]["u"], rtol=0, atol=1e-9)
     assert [row["steps"] for row in on["history"][:2]] == [row["steps"] for row in half.history[:2]]
     other = half.settings.model_copy(update={"seed": 5})
-    FlowRun(FLOWS["cavity"], other).run().save(saved)  # of other settings: not gone on with
+    CaseRun(FLOWS["cavity"], other).run().save(saved)  # of other settings: not gone on with
     assert compute_run(run.case, run.given)["metrics"] == straight["metrics"]
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.schemes.presets import PRESETS
 from sphear.sweeps import Run, plan
@@ -76,7 +76,7 @@ def test_the_cost_of_a_run_does_not_know_of_the_others() -> None:
             runs = plan(case, over, {"scheme": scheme, **fixed})
             assert len(runs) == 8
             for planned in runs:
-                alone = FlowRun(FLOWS[case], planned.settings)
+                alone = CaseRun(FLOWS[case], planned.settings)
                 steps = min(
                     (planned.settings.until or 0.0) * alone.unit / alone.flow.time_step, planned.settings.max_steps
                 )
@@ -85,13 +85,13 @@ def test_the_cost_of_a_run_does_not_know_of_the_others() -> None:
 
 def test_a_flow_is_started_once_for_all_reynolds_numbers_times_and_seeds(monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[int] = []
-    start = FlowRun.__init__
+    start = CaseRun.__init__
 
-    def counted(self: FlowRun, case: Any, settings: Any) -> None:
+    def counted(self: CaseRun, case: Any, settings: Any) -> None:
         started.append(settings.resolution)
         start(self, case, settings)
 
-    monkeypatch.setattr(FlowRun, "__init__", counted)
+    monkeypatch.setattr(CaseRun, "__init__", counted)
     over: dict[str, Any] = {"reynolds": [0.1, 0.2, 0.3], "resolution": [10, 12], "seed": range(5), "until": [0.1, 0.2]}
     told: list[tuple[int, int]] = []
     assert len(plan("poiseuille", over, {}, lambda planned, of: told.append((planned, of)))) == 60

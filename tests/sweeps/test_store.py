@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import sphear
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.errors import SphearError
 from sphear.sweeps import Store, plan, run_sweep
 from sphear.sweeps.result import HISTORY, of_record, record
@@ -113,7 +113,7 @@ def test_a_long_history_is_thinned_and_keeps_its_ends() -> None:
 def test_a_flow_is_stored_as_it_was_computed(store: Store) -> None:
     (run,) = plan("poiseuille", {"resolution": [10]}, {"until": 0.05}, preset="basa2009")
     (result,) = run_sweep([run], store)
-    alone = record(FlowRun(FLOWS[run.case], run.settings).run())
+    alone = record(CaseRun(FLOWS[run.case], run.settings).run())
     assert result.end == alone["end"]
     # code just compiled and code from the cache may round differently
     assert result.metrics == pytest.approx(alone["metrics"])

@@ -102,7 +102,7 @@ class PatchTest(BaseModel):
             SphearError: an unknown name, a field or expression without a value somewhere, too few neighbours.
         """
         terms = {text(plain(name, VISCOSITY)): arguments.read_viscosity(name) for name in self.viscosity}
-        known = scalar_field(self.field, self.dimension)
+        exact_field = scalar_field(self.field, self.dimension)
         for term in terms.values():
             arguments.read_correction(self.correction, term)
             if term.radial and not self.velocity:
@@ -111,24 +111,24 @@ class PatchTest(BaseModel):
                     f" velocity along the line of centres: let the patch test act on a velocity (--velocity)"
                 )
         errors = {
-            (name, size): PatchErrors.mean(found)
+            (name, size): PatchErrors.mean(error)
             for size in dict.fromkeys(self.sizes)
-            for name, found in self._at(size, terms, known, progress).items()
+            for name, error in self._at(size, terms, exact_field, progress).items()
         }
         return [row for name in terms for row in self._of_term(name, errors)]
 
     def _of_term(self, name: str, errors: dict[tuple[str, int], PatchErrors]) -> Iterator[dict[str, Any]]:
         before: tuple[int, PatchErrors] | None = None
         for size in dict.fromkeys(self.sizes):
-            found = errors[name, size]
+            error = errors[name, size]
             order = None
-            if before is not None and min(found.l1, before[1].l1) > 0:
-                order = math.log(before[1].l1 / found.l1) / math.log(size / before[0])
-            yield {"viscosity": name, "particles": size, "dx": 1 / size, **found.as_dict(), "order": order}
-            before = size, found
+            if before is not None and min(error.l1, before[1].l1) > 0:
+                order = math.log(before[1].l1 / error.l1) / math.log(size / before[0])
+            yield {"viscosity": name, "particles": size, "dx": 1 / size, **error.as_dict(), "order": order}
+            before = size, error
 
     def _at(
-        self, size: int, terms: dict[str, ViscousTerm], known: ScalarField, progress: Callable[[str], None]
+        self, size: int, terms: dict[str, ViscousTerm], exact_field: ScalarField, progress: Callable[[str], None]
     ) -> dict[str, list[PatchErrors]]:
         kernel = arguments.read_kernel(self.kernel, self.h_over_dx, 1.0 / size)
         reach = math.ceil(kernel.radius * size - 1e-9)  # intervals that a support covers
@@ -139,7 +139,7 @@ class PatchTest(BaseModel):
             )
         # first derivatives of first derivatives need their neighbours' neighbours
         layers = 2 * reach + 1 if self.edges == "continued" else 0
-        found: dict[str, list[PatchErrors]] = {name: [] for name in terms}
+        errors: dict[str, list[PatchErrors]] = {name: [] for name in terms}
         for seed in range(self.seed, self.seed + (self.seeds if self.jitter else 1)):
             progress(f"{size} particles a side" + (f", seed {seed}" if self.jitter else ""))
             grid = lattice(size, self.dimension, layers=layers, jitter=self.jitter, seed=seed)
@@ -152,24 +152,24 @@ class PatchTest(BaseModel):
                 precision=self.precision,
             )
             for name, term in terms.items():
-                computed, exact = self._laplacians(particles, term, known, grid, sample)
-                found[name].append(patch_errors(computed, exact))
-        return found
+                computed, exact = self._laplacians(particles, term, exact_field, grid, sample)
+                errors[name].append(patch_errors(computed, exact))
+        return errors
 
     def _laplacians(
-        self, particles: Particles, term: ViscousTerm, known: ScalarField, grid: Lattice, sample: Array
+        self, particles: Particles, term: ViscousTerm, exact_field: ScalarField, grid: Lattice, sample: Array
     ) -> tuple[Array, Array]:
         """Computed and exact Laplacian at the sample, (M, k)."""
         correction = arguments.read_correction(self.correction, term)
         if self.velocity:
-            values, exact = stream_velocity(known, grid.positions, grid.positions[sample])
+            values, exact = stream_velocity(exact_field, grid.positions, grid.positions[sample])
             ones = np.ones(len(values))
 
             def compute(fallback: Literal["uncorrected", "nan"] | None) -> Array:
                 return particles.viscous_acceleration(values, ones, ones, term, correction, fallback)
         else:
-            values = known.value(grid.positions)[:, None]
-            exact = known.laplacian(grid.positions[sample])[:, None]
+            values = exact_field.value(grid.positions)[:, None]
+            exact = exact_field.laplacian(grid.positions[sample])[:, None]
 
             def compute(fallback: Literal["uncorrected", "nan"] | None) -> Array:
                 return particles.laplacian(values, term, correction, fallback)

@@ -24,7 +24,7 @@ _HOMES = {  # the module and the name of each registry
     "walls": ("sphear.boundaries.models", "WALL_MODELS"),
     "shifting": ("sphear.shifting", "SHIFTING"),
     "preconditioners": ("sphear.pressure", "PRECONDITIONERS"),
-    "integrators": ("sphear.schemes.integrators", "INTEGRATORS"),
+    "integrators": ("sphear.schemes.weakly_compressible.integrators", "INTEGRATORS"),
 }
 KINDS = (*_HOMES, "studies", "cases")
 _SINGULAR = {

@@ -14,7 +14,7 @@ from sphear.errors import Interrupted, OutputError, SphearError
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.results import OutputFolder
 
 
@@ -30,7 +30,7 @@ def state_of(name: str, files: OutputFolder) -> Path:
 
 
 @contextmanager
-def kept_in(files: OutputFolder | None, run: FlowRun, *, resume: bool, overwrite: bool) -> Iterator[None]:
+def kept_in(files: OutputFolder | None, run: CaseRun, *, resume: bool, overwrite: bool) -> Iterator[None]:
     """The folder for this run alone: gone on with, or empty of a run of that case.
 
     Args:
@@ -99,7 +99,7 @@ def _check_empty(name: str, files: OutputFolder) -> None:
         )
 
 
-def compute(run: FlowRun, files: OutputFolder | None, signals: Signals) -> None:
+def compute(run: CaseRun, files: OutputFolder | None, signals: Signals) -> None:
     """Run to the end; a signal keeps the state and says how to go on.
 
     Raises:
@@ -113,7 +113,7 @@ def compute(run: FlowRun, files: OutputFolder | None, signals: Signals) -> None:
             raise Interrupted(_interrupted(run, files), signals.status) from None
 
 
-def _interrupted(run: FlowRun, files: OutputFolder | None) -> str:
+def _interrupted(run: CaseRun, files: OutputFolder | None) -> str:
     now = run.flow.time / run.unit
     where = f"interrupted at {run.case.time_name} = {now:.4g}"
     if files is None:
@@ -124,7 +124,7 @@ def _interrupted(run: FlowRun, files: OutputFolder | None) -> str:
     return f"{where}; the state{at} is in {files.path}, and the same command with --resume goes on from there"
 
 
-def finish(run: FlowRun, files: OutputFolder | None, steps: Sequence[Callable[[], None]], signals: Signals) -> None:
+def finish(run: CaseRun, files: OutputFolder | None, steps: Sequence[Callable[[], None]], signals: Signals) -> None:
     """Gather and write the results of a run that has ended, step by step; its state is kept until they are there.
 
     That of a run that can be extended stays with them.

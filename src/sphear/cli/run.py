@@ -17,7 +17,7 @@ from sphear.errors import SphearError
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.results.table import Table
 
 FAILED = 3  # exit status of a flow that broke down
@@ -48,8 +48,8 @@ def run(
     is wrong; 1, results cannot be written or memory is short; 130, 143, 129: interrupted by Ctrl-C, SIGTERM or SIGHUP,
     with its state kept in --out DIR.
     """
-    from sphear.cases.flow import FLOWS, FlowRun
-    from sphear.cases.flow.chosen import flow_settings
+    from sphear.cases.flow import FLOWS, CaseRun
+    from sphear.cases.flow.start import flow_settings
 
     files = folder(out)
     chosen = FLOWS[case]
@@ -62,7 +62,7 @@ def run(
     if both := next((key for key in named if key in wanted), None):
         raise SphearError(f"the setting {both} is given by --{both} and by --set: choose one")
     wanted |= named
-    flow = FlowRun(chosen, flow_settings(chosen, wanted, preset))
+    flow = CaseRun(chosen, flow_settings(chosen, wanted, preset))
     with Signals() as signals, kept_in(files, flow, resume=resume, overwrite=overwrite):
         if not as_json:
             print_text(_start(flow))
@@ -91,7 +91,7 @@ def run(
         raise typer.Exit(FAILED)
 
 
-def _start(run: FlowRun) -> str:
+def _start(run: CaseRun) -> str:
     """Text before the first step."""
     flow, settings = run.flow, run.settings
     limit, longest = min(flow.limits.items(), key=lambda item: item[1])
@@ -116,7 +116,7 @@ def _start(run: FlowRun) -> str:
     return "\n".join(lines)
 
 
-def _table(run: FlowRun) -> Table:
+def _table(run: CaseRun) -> Table:
     from sphear.results.table import Column, Table
 
     rows = run.history[:: max(1, len(run.history) // 10)]
@@ -130,7 +130,7 @@ def _table(run: FlowRun) -> Table:
     return Table(f"{run.case.name}, {run.settings.viscosity}", columns, rows)
 
 
-def _particles(run: FlowRun) -> Table:
+def _particles(run: CaseRun) -> Table:
     """The particles at the end, for other programs."""
     from sphear.results.table import Column, Table
 
@@ -160,7 +160,7 @@ def _summary(metrics: dict[str, Any], table: Table) -> str:
     return f"  {', '.join(found)}.\n" if found else ""
 
 
-def _figure(run: FlowRun) -> Figure:
+def _figure(run: CaseRun) -> Figure:
     import numpy as np
 
     from sphear.boundaries.shapes import repeated
@@ -178,7 +178,7 @@ def _figure(run: FlowRun) -> Figure:
         f"{run.case.name}: {run.settings.viscosity}, Re = {run.settings.reynolds:g},"
         f" {run.case.time_name} = {times[-1]:.3g}{', failed' if run.end.startswith('failed') else ''}",
         (places, velocities, problem.spacing) if plane else None,
-        run.case.known(run.settings),
+        run.case.reference_history(run.settings),
         None if problem.shape is None else repeated(problem.shape, problem.window).distance,
     )
 

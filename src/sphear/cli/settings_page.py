@@ -13,7 +13,7 @@ from sphear.cli.explained import of_settings, short
 from sphear.schemes.common import RunSettings, Scheme
 from sphear.schemes.incompressible.settings import Incompressible, IncompressibleSettings
 from sphear.schemes.presets import BY_SCHEME
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -81,13 +81,13 @@ def _presets() -> list[str]:
     rows = ["## Presets", "", "| preset | case | settings |", "|---|---|---|"]
     for scheme, presets in BY_SCHEME.items():
         for name in presets:
-            rows.append(f"| `{name}` ({scheme}) | all | {_chosen(presets[name])} |")
+            rows.append(f"| `{name}` ({scheme}) | all | {_written(presets[name])} |")
             for case in FLOWS:
                 if scheme in FLOWS[case].defaults and (own := FLOWS[case].presets.get(name)):
-                    rows.append(f"| | `{case}` | {_chosen(own)} |")
+                    rows.append(f"| | `{case}` | {_written(own)} |")
     return rows
 
 
-def _chosen(settings: object) -> str:
+def _written(settings: object) -> str:
     assert isinstance(settings, dict)
     return ", ".join(f"{key}={short(value)}" for key, value in settings.items())

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from sphear.algebra import Matrix, Scalar, Vector, dot
-from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 
@@ -32,7 +32,7 @@ class Correction:
     source: ClassVar[str] = "not stated"
     zeroth_order: ClassVar[bool] = False  # whether sums of derivatives of W~, the particle itself included, vanish
 
-    def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Interaction | None:
+    def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Preparation | None:
         """The interaction that sums up what the correction needs, for `hessian` too if asked for; None if nothing."""
         raise NotImplementedError
 

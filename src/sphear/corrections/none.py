@@ -7,7 +7,7 @@ from typing import Any
 
 from sphear.algebra import Matrix, Scalar, Vector
 from sphear.corrections.base import Correction
-from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
 from sphear.kernels import Kernel
 
 
@@ -31,7 +31,7 @@ class NoCorrection(Correction):
     source = "Gingold & Monaghan 1977; Lucy 1977"
     zeroth_order = False
 
-    def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Interaction | None:
+    def preparation(self, kernel: Kernel, second_derivatives: bool = False) -> Preparation | None:
         """Nothing to sum up."""
         return None
 

@@ -7,14 +7,12 @@ import ctypes
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # of <malloc.h>
 LARGEST = 2**31 - 1
 
-LARGE = 5000  # particles, from which on the arrays of a step are large to the C library
-
 
 def keep_freed_memory() -> None:
     """Let the C library keep what is freed for the next step, where it is glibc.
 
     It would give large arrays back to the system, which clears them page by page when they are asked for again: a third
-    of the time of a step of 100,000 particles, see benchmarks/step.py.
+    of the time of a step of 100,000 particles, see docs/measurements/performance.md.
     """
     try:
         mallopt = ctypes.CDLL(None).mallopt

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
 
 
 class Rows(Enum):
@@ -122,13 +123,13 @@ class Prepare:
 
     Attributes:
         result: the name of its array.
-        preparation: the interaction; one with normal equations is solved for each particle.
+        preparation: the interaction; one of `NormalEquations` is solved for each particle.
         rows: the particles that it is prepared for.
         columns: that it may use.
     """
 
     result: str
-    preparation: Any
+    preparation: Preparation
     rows: Rows
     columns: Columns
 

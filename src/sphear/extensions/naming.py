@@ -1,4 +1,4 @@
-"""Decorators that give viscous terms, kernels, corrections, equations of state and parts of schemes names."""
+"""Decorators that give viscous terms, kernels, corrections and equations of state names."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from types import FunctionType
 from typing import Any, Protocol, TypeVar, dataclass_transform, overload
 
-from sphear.boundaries.models import WALL_MODELS, AnyWallModel
 from sphear.corrections import CORRECTIONS, Correction
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState
 from sphear.extensions import protocol
@@ -14,8 +13,6 @@ from sphear.extensions.registering import checked_names, register
 from sphear.extensions.weights import Weight, of_weight
 from sphear.kernels import KERNELS, Kernel
 from sphear.names import Registry
-from sphear.pressure import PRECONDITIONERS, Preconditioner
-from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, LaplacianTerm, ViscousTerm
 
 T = TypeVar("T")
@@ -23,9 +20,6 @@ TermT = TypeVar("TermT", bound="ViscousTerm | type[ViscousTerm]")
 KernelT = TypeVar("KernelT", bound=type[Kernel])
 CorrectionT = TypeVar("CorrectionT", bound="Correction | type[Correction]")
 EquationT = TypeVar("EquationT", bound=type[EquationOfState])
-ShiftingT = TypeVar("ShiftingT", bound="ShiftingMethod | type[ShiftingMethod]")
-WallModelT = TypeVar("WallModelT", bound="AnyWallModel | type[AnyWallModel]")
-PreconditionerT = TypeVar("PreconditionerT", bound="Preconditioner | type[Preconditioner]")
 
 
 class NamesTerm(Protocol):
@@ -37,7 +31,7 @@ class NamesTerm(Protocol):
     def __call__(self, term: Weight, /) -> LaplacianTerm: ...
 
 
-def _named(of: protocol.Protocol, registry: Registry[Any], name: str, aliases: Sequence[str]) -> Callable[[T], T]:
+def decorator_of(of: protocol.Protocol, registry: Registry[Any], name: str, aliases: Sequence[str]) -> Callable[[T], T]:
     """The decorator that puts what it is given into a registry, checked by its kind."""
     names = checked_names(of.decorator, name, aliases)
 
@@ -85,7 +79,7 @@ def viscous_term(name: str, *, aliases: Sequence[str] = ()) -> NamesTerm:
         >>> print(lap[210].round(1))  # in the middle
         2.0
     """
-    decorator: Any = _named(protocol.TERM, VISCOSITY, name, aliases)
+    decorator: Any = decorator_of(protocol.TERM, VISCOSITY, name, aliases)
     named: NamesTerm = decorator
     return named
 
@@ -118,7 +112,7 @@ def kernel(name: str, *, aliases: Sequence[str] = ()) -> Callable[[KernelT], Ker
         >>> print(sphear.Incompressible(kernel="mine"))
         Incompressible(kernel='mine')
     """
-    return _named(protocol.KERNEL, KERNELS, name, aliases)
+    return decorator_of(protocol.KERNEL, KERNELS, name, aliases)
 
 
 @dataclass_transform(frozen_default=True)
@@ -149,7 +143,7 @@ def correction(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Correctio
         >>> print(sphear.Incompressible(gradient_correction="mine"))
         Incompressible(gradient_correction='mine')
     """
-    return _named(protocol.CORRECTION, CORRECTIONS, name, aliases)
+    return decorator_of(protocol.CORRECTION, CORRECTIONS, name, aliases)
 
 
 @dataclass_transform(frozen_default=True)
@@ -179,72 +173,4 @@ def equation_of_state(name: str, *, aliases: Sequence[str] = ()) -> Callable[[Eq
         >>> sphear.EQUATIONS_OF_STATE["mine"](rho0=1.0, c0=10.0).pressure(1.5)
         50.0
     """
-    return _named(protocol.EQUATION, EQUATIONS_OF_STATE, name, aliases)
-
-
-@dataclass_transform(frozen_default=True)
-def shifting_method(name: str, *, aliases: Sequence[str] = ()) -> Callable[[ShiftingT], ShiftingT]:
-    """Give a way of shifting a name, which incompressible flows take as the setting `shifting` from then on.
-
-    It decorates a class derived from `ShiftingMethod`, or an object of one, with the method `drift`: a sum over
-    neighbours, a `sphear.interactions.Part` of the role "drift". The setting `shifting_strength` is its field
-    `strength`, if it has one.
-
-    Args:
-        name: of the method, found whatever the case, with '-' and ' ' read as '_'.
-        aliases: other names of it.
-
-    Returns:
-        The decorator, which gives back the class or object it is given.
-
-    Raises:
-        SphearError: a name is taken, with what has it, or is no name; the class lacks a method or a default; or the
-            thing is no way of shifting.
-
-    Examples:
-        >>> import sphear
-        >>> @sphear.shifting_method("weak")
-        ... class Weak(sphear.Lind):
-        ...     strength: float = 0.2
-        ...
-        >>> sphear.SHIFTING["weak"]
-        Weak(strength=0.2)
-    """
-    return _named(protocol.SHIFTING, SHIFTING, name, aliases)
-
-
-@dataclass_transform(frozen_default=True)
-def wall_model(name: str, *, aliases: Sequence[str] = ()) -> Callable[[WallModelT], WallModelT]:
-    """Give a wall model a name, which flows take as the setting `walls` from then on.
-
-    It decorates a class derived from `WallModel`, of incompressible flows, from `ExplicitWallModel`, of explicit ones,
-    or from one of the package's models, or an object of one, that changes methods of it: all have one. The settings
-    `continuation`, `wall_divergence` and `wall_particles` are its fields, if it has them.
-
-    Args, returns and raises: as `shifting_method`.
-
-    Examples:
-        >>> import sphear
-        >>> linear = sphear.wall_model("linear_points")(sphear.MirrorPoints(continuation="linear"))
-        >>> print(sphear.Incompressible(walls="linear_points"))
-        Incompressible(walls='linear_points')
-    """
-    return _named(protocol.WALL_MODEL, WALL_MODELS, name, aliases)
-
-
-@dataclass_transform(frozen_default=True)
-def preconditioner(name: str, *, aliases: Sequence[str] = ()) -> Callable[[PreconditionerT], PreconditionerT]:
-    """Give a preconditioner a name, which incompressible flows take as the setting `preconditioner` from then on.
-
-    It decorates a class derived from `Preconditioner`, or an object of one, with the method `build`, which makes of a
-    `PressureSystem` the function that applies nearly its inverse.
-
-    Args, returns and raises: as `shifting_method`.
-
-    Examples:
-        >>> import sphear
-        >>> coarse = sphear.preconditioner("coarse")(sphear.Grid(coarsening=4.0))
-        >>> print(sphear.Incompressible(preconditioner="coarse"))
-        Incompressible(preconditioner='coarse')
-    """
-    return _named(protocol.PRECONDITIONER, PRECONDITIONERS, name, aliases)
+    return decorator_of(protocol.EQUATION, EQUATIONS_OF_STATE, name, aliases)

@@ -11,6 +11,7 @@ from sphear.equations_of_state import EquationOfState
 from sphear.errors import SphearError, quoted
 from sphear.kernels import Kernel
 from sphear.pressure import Preconditioner
+from sphear.schemes.weakly_compressible.integrators import Integrator
 from sphear.shifting import ShiftingMethod
 from sphear.viscosity import LaplacianTerm, ViscousTerm
 
@@ -50,6 +51,7 @@ EQUATION = Protocol(
 )  # fmt: skip
 SHIFTING = Protocol("shifting_method", ShiftingMethod, "sphear.ShiftingMethod", ("drift",), instances=True)
 WALL_MODEL = Protocol("wall_model", AnyWallModel, "sphear.WallModel or sphear.ExplicitWallModel", (), instances=True)
+INTEGRATOR = Protocol("integrator", Integrator, "sphear.Integrator", ("step", "kept"), instances=True)
 PRECONDITIONER = Protocol("preconditioner", Preconditioner, "sphear.Preconditioner", ("build",), instances=True)
 
 

@@ -74,8 +74,8 @@ def refuse_pairs(start: Array, rows: Array, reach: int, entries: int, particles:
     """
     held = np.diff(start).astype(np.float64)
     share = particles / max(1, entries) * (0.5 if once else 1.0)
-    # sum_c n_c n_(c + k) <= sum_c n_c^2, so that this is enough for whatever lists are usual; not by BLAS, whose threads
-    # wait for each other: see `sphear.pressure.vectors`
+    # sum_c n_c n_(c + k) <= sum_c n_c^2, so that this is enough for whatever lists are usual; not by BLAS, whose
+    # threads wait for each other: see `sphear.pressure.vectors`
     if PAIR_BYTES * share * len(rows) * (2 * reach + 1) * float(np.einsum("c,c->", held, held)) < UNASKED:
         return
     used = np.flatnonzero(held)

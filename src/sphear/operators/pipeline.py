@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
+from sphear.engine.preparing import PreparationSweep, deficient
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
 from sphear.neighbours import Chunk, Neighbours
@@ -26,7 +28,7 @@ class Operation:
     """
 
     stages: Sequence[Interaction]
-    preparation: Any = None
+    preparation: Preparation | None = None
 
 
 @dataclass(frozen=True)
@@ -35,36 +37,6 @@ class Outcome:
 
     values: Array
     deficient: Array
-
-
-class Preparation:
-    """Sums for each particle of a chunk that an interaction needs before its own sweep.
-
-    Args:
-        interaction: a preparation; `quality` is the first number of its result.
-        neighbours: the pairs.
-        volumes: (N,).
-        dtype: of the sums.
-    """
-
-    def __init__(self, interaction: Any, neighbours: Neighbours, volumes: Array, dtype: str) -> None:
-        self.interaction = interaction
-        self.sweep = Sweep(interaction, neighbours, {"volume": volumes}, dtype=dtype)
-        solved = hasattr(interaction, "solve")
-        self.dimension = neighbours.dimension
-        result = interaction.template(self.dimension) if solved else self.sweep.formula.result
-        self.template = (("prepared", result),)
-
-    def over(self, chunk: Chunk) -> tuple[Array, Array]:
-        """The prepared numbers of the chunk's rows, in their order, and which of these rows are deficient."""
-        rows = chunk.end - chunk.begin
-        out = np.empty((rows, self.sweep.outputs), self.sweep.dtype)
-        self.sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
-        if hasattr(self.interaction, "solve"):
-            out = self.interaction.solve(out, self.dimension).astype(self.sweep.dtype, copy=False)
-        # the first number is the quality, of which rounding of the sums leaves some digits; a NaN is deficient too
-        least = max(self.interaction.least_quality, 100 * float(np.finfo(self.sweep.dtype).eps))
-        return out, np.flatnonzero(~(out[:, 0] > least))
 
 
 def _unprepared(
@@ -98,8 +70,9 @@ def run(
     """
     if operation.preparation is None:
         return _unprepared(operation, neighbours, fields, each_pair_once, dtype)
-    prepared = Preparation(operation.preparation, neighbours, fields["volume"], dtype)
-    deficient: list[Array] = []
+    preparation = operation.preparation
+    prepared = PreparationSweep(preparation, neighbours, {"volume": fields["volume"]}, dtype)
+    deficient_ones: list[Array] = []
     lacking = np.empty(0, np.int64)
     result = np.empty((neighbours.count, 0))
     for number, stage in enumerate(operation.stages):
@@ -108,13 +81,13 @@ def run(
         out = np.empty((neighbours.count, sweep.outputs), dtype)
 
         def job(chunk: Chunk, sweep: Sweep = sweep, out: Array = out, first: bool = number == 0) -> None:
-            own, lacking = prepared.over(chunk)
-            if first and len(lacking):
-                deficient.append(neighbours.particles(chunk)[lacking])
+            own = prepared.over(chunk)
+            if first and len(lacking := deficient(preparation, own)):
+                deficient_ones.append(neighbours.particles(chunk)[lacking])
             sweep.over(chunk, out, neighbours.particles(chunk), own)
 
         on_threads(job, neighbours.chunks, neighbours.threads)
-        lacking = np.sort(np.concatenate(deficient)) if deficient else np.empty(0, np.int64)
+        lacking = np.sort(np.concatenate(deficient_ones)) if deficient_ones else np.empty(0, np.int64)
         if plain is not None and len(lacking):
             out[lacking] = Sweep(plain.stages[number], neighbours, known, dtype=dtype).everywhere()[lacking]
         result = out

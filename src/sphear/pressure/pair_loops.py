@@ -35,9 +35,9 @@ def spread(vector, unknown, starts, columns, shares, behind, pressures):  # type
 @njit(nogil=True, fastmath={"reassoc"})
 def prepare(  # type: ignore[no-untyped-def]
     begin, end, first, neighbour, weights, unknown, unknowns, starts, columns, shares, seen, sums, jump, fixed,
-    some_fixed, outside, own, diagonal, known, kinds, neutral,
+    some_fixed, outside, own, diagonal, jump_terms, kinds, neutral,
 ):  # fmt: skip
-    """Drop weights that rows begin ... end do not have, and find their diagonals, what is known, and their faults.
+    """Drop weights that rows begin ... end do not have, and find their diagonals, what jumps add, and their faults.
 
     `own` is what multiplies the row's pressure beside its pairs; the `diagonal` has the walls' shares of it too.
     """
@@ -80,7 +80,7 @@ def prepare(  # type: ignore[no-untyped-def]
                     weights[k] = 0.0
         if fixed[row]:  # it holds its diagonal alone
             own[row] = diagonal[row] = -(fluid + behind) if fluid + behind > 0.0 else -1.0
-            known[row], neutral[row] = 0.0, False
+            jump_terms[row], neutral[row] = 0.0, False
             kinds[row] = FINE if np.isfinite(own[row]) else NOT_FINITE
             continue
         if behind != 0.0 and back - fluid - behind >= 0.0:
@@ -94,7 +94,7 @@ def prepare(  # type: ignore[no-untyped-def]
                     back += weights[k]
         own[row] = outside[row] - fluid - behind
         diagonal[row] = own[row] + back
-        known[row] = given
+        jump_terms[row] = given
         total = own[row] + walls + fluid
         if some_fixed:
             total = own[row] + walls

@@ -53,7 +53,7 @@ class PairRows:
         threads: to compute on.
 
     Attributes:
-        known: (n,), sum_w w_iw jump_w, which belongs to the matrix's side of the equation.
+        jump_terms: (n,), sum_w w_iw jump_w, which belongs to the matrix's side of the equation.
     """
 
     def __init__(
@@ -83,12 +83,12 @@ class PairRows:
         self._pressures, self._behind = np.empty(len(unknown)), np.empty(behind)
         self._own, self._diagonal = np.empty(self.rows), np.empty(self.unknowns)
         self._kinds, self._neutral = np.empty(self.rows, np.int8), np.empty(self.rows, np.bool_)
-        self.known = np.zeros(self.unknowns)
+        self.jump_terms = np.zeros(self.unknowns)
 
         def prepare(number: int) -> None:
             pair_loops.prepare(
                 *self._listed(number), self.unknown, self.unknowns, *self.walls, seen, sums, jump, fixed, some_fixed,
-                outside, self._own, self._diagonal, self.known, self._kinds, self._neutral,
+                outside, self._own, self._diagonal, self.jump_terms, self._kinds, self._neutral,
             )  # fmt: skip
 
         on_threads(prepare, range(len(chunks)), threads)

@@ -13,18 +13,22 @@ from sphear.names import unknown
 from sphear.schemes.checks import check_connected, check_places
 from sphear.schemes.common import Scheme, missing
 from sphear.schemes.incompressible.settings import Incompressible, IncompressibleSettings
-from sphear.schemes.settings import FlowSettings, WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible, WeaklyCompressibleSettings
 
 if TYPE_CHECKING:
     from sphear.kernels import Kernel
+    from sphear.schemes.energy import EnergyBudget
     from sphear.schemes.problem import Problem
     from sphear.viscosity import ViscousTerm
 
-Settings = FlowSettings | IncompressibleSettings
+Settings = WeaklyCompressibleSettings | IncompressibleSettings
 
 Array = np.ndarray[Any, Any]
 
-_SETTINGS: dict[str, type[Settings]] = {"explicit": FlowSettings, "incompressible": IncompressibleSettings}
+_SETTINGS: dict[str, type[Settings]] = {
+    "explicit": WeaklyCompressibleSettings,
+    "incompressible": IncompressibleSettings,
+}
 SCHEMES = tuple(_SETTINGS)
 
 
@@ -48,7 +52,7 @@ class FlowFailure(SphearError):
     """
 
 
-class FlowInTime(Protocol):
+class Flow(Protocol):
     """A flow in time, by any scheme.
 
     Attributes:
@@ -89,6 +93,10 @@ class FlowInTime(Protocol):
     def pressure(self) -> Array:
         """Pressure at the particles, (N,), a density by a squared speed."""
 
+    @property
+    def energy_budget(self) -> EnergyBudget | None:
+        """Kinetic energy and the work that was done on it; None of a scheme that keeps none."""
+
     @staticmethod
     def limits_of(problem: Problem, settings: Any, kernel: Kernel, term: ViscousTerm) -> dict[str, float]:
         """The time steps that each condition allows in another problem with the same particles."""
@@ -112,7 +120,7 @@ class FlowInTime(Protocol):
         """A few words on the scheme, printed before the first step."""
 
 
-def described(flow: FlowInTime, viscosity: str) -> str:
+def described(flow: Flow, viscosity: str) -> str:
     """A flow in a line: its class, particles, viscous term and clock."""
     return (
         f"<{type(flow).__name__} of {flow.count} particles, {viscosity}: t = {flow.time:.6g}, {flow.steps} steps of"
@@ -131,20 +139,20 @@ def settings_type(scheme: str) -> type[Settings]:
     return _SETTINGS[scheme]
 
 
-def unknown_setting(key: str, known: Mapping[str, Any], scheme: str) -> SphearError:
+def unknown_setting(key: str, valid: Mapping[str, Any], scheme: str) -> SphearError:
     """The error for a setting that a scheme has not: it is another scheme's, or nobody's."""
     of = [name for name, kind in _SETTINGS.items() if key in kind.model_fields]
     if of:
         return SphearError(f"the setting {key} is one of scheme={of[0]}, and this is scheme={scheme}")
-    return missing(key, known)
+    return missing(key, valid)
 
 
-def flow_in_time(problem: Problem, scheme: Scheme, duration: float = math.inf) -> FlowInTime:
+def flow_of(problem: Problem, scheme: Scheme, duration: float = math.inf) -> Flow:
     """The flow of a problem by a scheme.
 
     Args:
         problem: what is to be computed.
-        scheme: how.
+        scheme: that computes it.
         duration: for how long, where that is known; implicit viscous steps resolve it.
 
     Raises:
@@ -156,13 +164,13 @@ def flow_in_time(problem: Problem, scheme: Scheme, duration: float = math.inf) -
         return IncompressibleFlow(problem, scheme, duration)
     if not isinstance(scheme, WeaklyCompressible):
         raise SphearError(f"a flow is computed by WeaklyCompressible or Incompressible, not by {quoted(scheme)}")
-    from sphear.schemes.flow import Flow
+    from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 
     if problem.free_surface:
         raise SphearError("the explicit scheme knows no free surfaces: take scheme=incompressible")
     if problem.force is not None:
         raise SphearError("the explicit scheme knows constant body forces only: take scheme=incompressible")
-    return Flow(problem, scheme)
+    return WeaklyCompressibleFlow(problem, scheme)
 
 
 def check_start(problem: Problem) -> None:

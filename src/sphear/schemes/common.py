@@ -23,11 +23,11 @@ RENAMED = {  # since 0.1
 }
 
 
-def missing(key: str, known: Iterable[str]) -> SphearError:
+def missing(key: str, valid: Iterable[str]) -> SphearError:
     """The error for a setting that there is none of: it has another name since 0.1, or nobody has it."""
     if key in RENAMED:
         return SphearError(f"the setting {key} of 0.1 is {RENAMED[key]}")
-    return unknown("setting", key, known)
+    return unknown("setting", key, valid)
 
 
 class Choices(BaseModel):
@@ -43,10 +43,10 @@ class Choices(BaseModel):
 
     def __init__(self, **choices: Any) -> None:
         choices = self.flattened(choices)
-        known = type(self).model_fields
+        valid = type(self).model_fields
         for key in choices:
-            if key not in known:
-                raise missing(key, known)
+            if key not in valid:
+                raise missing(key, valid)
         with checked("the setting "):
             super().__init__(**choices)
 
@@ -82,11 +82,11 @@ class Scheme(Choices):
         """The scheme with what differs from its defaults, as it is written in a program."""
         usual = self._usual()
         changed = {name: value for name, value in self if value != usual[name]}
-        chosen = [
+        written = [
             f"{name}={value!r}" if isinstance(value, str) else f"{name}={text(value)}"
             for name, value in changed.items()
         ]
-        return f"{type(self).__name__}({', '.join(chosen)})"
+        return f"{type(self).__name__}({', '.join(written)})"
 
     def _usual(self) -> dict[str, Any]:
         """The defaults, as they are beside these choices."""

@@ -66,7 +66,7 @@ def flattened(given: Mapping[str, Any], flat: Mapping[str, FlatSetting]) -> dict
     Raises:
         SphearError: an object and a flat setting contradict each other.
     """
-    found = dict(given)
+    result = dict(given)
     for key, setting in flat.items():
         item = given.get(key)
         if not isinstance(item, setting.kind) or not is_dataclass(item):
@@ -77,7 +77,7 @@ def flattened(given: Mapping[str, Any], flat: Mapping[str, FlatSetting]) -> dict
                     f"{key}={text(item)} and {name}={text(given[name])} contradict each other: leave {name} to the"
                     " object"
                 )
-            found[name] = value
-        if (known := setting.name_of(item)) is not None:
-            found[key] = known
-    return found
+            result[name] = value
+        if (its_name := setting.name_of(item)) is not None:
+            result[key] = its_name
+    return result

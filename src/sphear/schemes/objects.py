@@ -17,7 +17,7 @@ from sphear.kernels import KERNELS, Kernel
 from sphear.names import Registry, unknown
 from sphear.operators import arguments
 from sphear.pressure import PRECONDITIONERS, Preconditioner
-from sphear.schemes.integrators import INTEGRATORS, Integrator
+from sphear.schemes.weakly_compressible.integrators import INTEGRATORS, Integrator
 from sphear.shifting import SHIFTING, ShiftingMethod
 from sphear.viscosity import VISCOSITY, ViscousTerm
 
@@ -48,8 +48,8 @@ def _reader(registry: Registry[Any], kind: type, read: Callable[[Any], Any]) -> 
 
     def reader(value: Any, info: ValidationInfo) -> Any:
         if isinstance(value, kind):
-            known = (name for name in registry if registry[name] == value)
-            return next(known, None) or read(value)
+            names = (name for name in registry if registry[name] == value)
+            return next(names, None) or read(value)
         if isinstance(value, str):
             return value
         raise SphearError(
@@ -60,7 +60,7 @@ def _reader(registry: Registry[Any], kind: type, read: Callable[[Any], Any]) -> 
     return reader
 
 
-def _chosen(registry: Registry[Any], kind: type, read: Callable[[Any], Any] = lambda value: value) -> Any:
+def _as_given(registry: Registry[Any], kind: type, read: Callable[[Any], Any] = lambda value: value) -> Any:
     return PlainValidator(_reader(registry, kind, read))
 
 
@@ -69,8 +69,8 @@ def _by_name(registry: Registry[Any], kind: type) -> Any:
     read = _reader(registry, kind, lambda value: value)
 
     def reader(value: Any, info: ValidationInfo) -> Any:
-        found, key = read(value, info), str(info.field_name)
-        return plain(found, registry, "" if registry.kind == key else f"the setting {key}")
+        item, key = read(value, info), str(info.field_name)
+        return plain(item, registry, "" if registry.kind == key else f"the setting {key}")
 
     return PlainValidator(reader)
 
@@ -84,13 +84,14 @@ def _walls(kind: type[AnyWallModel], scheme: str) -> Any:
                 f"the setting walls should be a name, such as {_of(kind)[0]!r}, or an object of the class"
                 f" {kind.__name__}, not {text(value)}"
             )
-        known = _name_of_walls(value, kind) if isinstance(value, str) else None
-        item = value if known is None else WALL_MODELS[known]
+        registered = _name_of_walls(value, kind) if isinstance(value, str) else None
+        item = value if registered is None else WALL_MODELS[registered]
         if not isinstance(item, kind):
             raise SphearError(
-                f"walls={known or text(item)} is no wall model of the {scheme} scheme, which has {', '.join(_of(kind))}"
+                f"walls={registered or text(item)} is no wall model of the {scheme} scheme, which has"
+                f" {', '.join(_of(kind))}"
             )
-        return known or next((name for name in _of(kind) if WALL_MODELS[name] == item), item)
+        return registered or next((name for name in _of(kind) if WALL_MODELS[name] == item), item)
 
     return PlainValidator(reader)
 
@@ -115,9 +116,9 @@ def _name_of_walls(given: str, kind: type[AnyWallModel]) -> str:
 
 WRITTEN = PlainSerializer(text, return_type=str, when_used="json")
 
-Term = Annotated[str | ViscousTerm, _chosen(VISCOSITY, ViscousTerm, arguments.read_viscosity), WRITTEN]
-CorrectionSetting = Annotated[str | Correction, _chosen(CORRECTIONS, Correction), WRITTEN]
-KernelSetting = Annotated[str | Kernel, _chosen(KERNELS, Kernel), WRITTEN]
+Term = Annotated[str | ViscousTerm, _as_given(VISCOSITY, ViscousTerm, arguments.read_viscosity), WRITTEN]
+CorrectionSetting = Annotated[str | Correction, _as_given(CORRECTIONS, Correction), WRITTEN]
+KernelSetting = Annotated[str | Kernel, _as_given(KERNELS, Kernel), WRITTEN]
 ShiftingSetting = Annotated[str | ShiftingMethod, _by_name(SHIFTING, ShiftingMethod), WRITTEN]
 WallModelSetting = Annotated[str | WallModel, _walls(WallModel, "incompressible"), WRITTEN]
 ExplicitWallModelSetting = Annotated[str | ExplicitWallModel, _walls(ExplicitWallModel, "explicit"), WRITTEN]
@@ -141,10 +142,10 @@ def _extension(name: str) -> str:
     Raises:
         ValueError: there is none.
     """
-    known = EQUATIONS_OF_STATE.name(name)
-    if known in EQUATIONS_OF_STATE.published or not issubclass(EQUATIONS_OF_STATE[known], Barotropic):
+    registered = EQUATIONS_OF_STATE.name(name)
+    if registered in EQUATIONS_OF_STATE.published or not issubclass(EQUATIONS_OF_STATE[registered], Barotropic):
         raise ValueError(f"flows take no equation of state named {name!r}")
-    return known
+    return registered
 
 
 EquationSetting = Annotated[

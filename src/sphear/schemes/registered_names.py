@@ -13,8 +13,8 @@ from sphear.corrections import CORRECTIONS
 from sphear.kernels import KERNELS
 from sphear.names import Registry
 from sphear.pressure import PRECONDITIONERS
-from sphear.schemes.integrators import INTEGRATORS
 from sphear.schemes.objects import plain
+from sphear.schemes.weakly_compressible.integrators import INTEGRATORS
 from sphear.shifting import SHIFTING
 from sphear.viscosity import VISCOSITY
 

@@ -11,8 +11,8 @@ from sphear.boundaries import Box
 from sphear.boundaries.shapes import Shape
 from sphear.boundaries.shapes.fastest import fastest
 from sphear.neighbours import Domain
-from sphear.schemes.base import FlowInTime
-from sphear.schemes.energy import EnergyBudget, greatest_speed, kinetic_energy
+from sphear.schemes.base import Flow
+from sphear.schemes.energy import greatest_speed, kinetic_energy
 from sphear.schemes.problem import Problem
 
 Array = np.ndarray[Any, Any]
@@ -49,7 +49,7 @@ class Watch:
         round_ = any(periodic and force for periodic, force in zip(problem.periodic, self.force, strict=True))
         return None if round_ else float((problem.positions @ self.force).sum())
 
-    def found(self, flow: FlowInTime) -> str | None:
+    def fault(self, flow: Flow) -> str | None:
         """Find what is wrong with a flow, in a sentence without its end; None where nothing is.
 
         - Fluid that no force drives is not faster than 1.25 times the fastest wall or particle at the start.
@@ -65,7 +65,7 @@ class Watch:
                 f"{speed / self.fastest:.3g} times as fast as the {what}" if self.fastest else "on its way from rest"
             )
             return f"fluid is {times}, and no force drives it"
-        budget: EnergyBudget | None = getattr(flow, "energy_budget", None)
+        budget = flow.energy_budget
         if not self.walls and not self.varied and self.heights is not None:
             whole = self.start if budget is None else budget.largest + budget.turned
             grown = self._grown(flow) / max(whole, NOTHING * self.scale)
@@ -75,7 +75,7 @@ class Watch:
             return f"the discretisation has made {created:.2g} of the energy that was there and turned over"
         return None
 
-    def _grown(self, flow: FlowInTime) -> float:
+    def _grown(self, flow: Flow) -> float:
         """Kinetic energy and that in a constant force, over what they were at the start."""
         assert self.heights is not None
         given = self.mass * (float((flow.positions @ self.force).sum()) - self.heights)

@@ -8,7 +8,7 @@ from sphear.names import unknown
 from sphear.schemes.common import Scheme
 from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.registered_names import named
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 SCHEMES: dict[str, type[Scheme]] = {"incompressible": Incompressible, "weakly_compressible": WeaklyCompressible}
 

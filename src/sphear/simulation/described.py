@@ -41,8 +41,8 @@ def described(simulation: Simulation) -> str:
 
 
 def _limits(limits: dict[str, float]) -> str:
-    known = (f"{name.replace('_', ' ')} allows {limit:.4g}" for name, limit in limits.items() if limit < math.inf)
-    return ", ".join(known)
+    allowed = (f"{name.replace('_', ' ')} allows {limit:.4g}" for name, limit in limits.items() if limit < math.inf)
+    return ", ".join(allowed)
 
 
 def _boundaries(simulation: Simulation) -> list[tuple[str, str]]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from sphear.schemes.base import FlowInTime
+from sphear.schemes.base import Flow
 
 Array = np.ndarray[Any, Any]
 
@@ -16,7 +16,7 @@ LEAST = 12  # particles
 DEFICIENT = 1e-8  # of singular values over the largest: some parabola vanishes at all particles, as on a circle
 
 
-def interpolated(flow: FlowInTime, points: Array) -> Array:
+def interpolated(flow: Flow, points: Array) -> Array:
     """The velocity at points (M, 2), (M, 2): the value there of the parabola that fits the particles around best.
 
     Weights fall with the distance. Exact for quadratic fields, so that a profile is not smeared by reading it off.
@@ -26,7 +26,7 @@ def interpolated(flow: FlowInTime, points: Array) -> Array:
     return np.array([_at(point, flow, tree) for point in points]).reshape(len(points), flow.velocities.shape[1])
 
 
-def _at(point: Array, flow: FlowInTime, tree: Any) -> Array:
+def _at(point: Array, flow: Flow, tree: Any) -> Array:
     reach = REACH
     while True:
         near = np.array(tree.query_ball_point(point, reach * flow.problem.spacing))

@@ -71,11 +71,11 @@ def initial_velocities(velocity: Velocity, positions: Array) -> Array:
         velocity = velocity(positions.copy())
     elif len(one := numbers(velocity)) == positions.shape[1]:
         return np.tile(np.array(one), (len(positions), 1))
-    found = real_array(velocity)
-    if found is None or found.shape != positions.shape:
-        shape = None if found is None else found.shape
+    values = real_array(velocity)
+    if values is None or values.shape != positions.shape:
+        shape = None if values is None else values.shape
         raise SphearError(
             f"velocities at the start are one for all or of the shape {positions.shape}, one a particle, not"
             f" {quoted(velocity) if shape is None else shape}"
         )
-    return np.asarray(found, np.float64)
+    return np.asarray(values, np.float64)

@@ -95,10 +95,10 @@ def _within(filled: Shape, positions: Array) -> Array:
     given: object = filled
     if not isinstance(given, Shape):
         raise SphearError(f"the part that is filled is a shape, such as Rectangle((0, 0), (1, 2)), not {quoted(given)}")
-    found: Array = positions[filled.distance(positions) > 0]
-    if not len(found):
+    inside: Array = positions[filled.distance(positions) > 0]
+    if not len(inside):
         raise SphearError(f"the part that is filled, the {filled}, holds no particle of the region")
-    return found
+    return inside
 
 
 def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[int, ...], dict[str, WallCondition]]:
@@ -106,10 +106,10 @@ def _sorted(region: Shape, boundaries: Mapping[str, Condition]) -> tuple[tuple[i
     given: object = boundaries
     if not isinstance(given, Mapping):
         raise SphearError(f"boundaries are given by name, as in {{'upper': NoSlip()}}, not {quoted(given)}")
-    axes, conditions, known = [], {}, known_walls(region)
+    axes, conditions, walls = [], {}, known_walls(region)
     for name, condition in given.items():
-        if name not in known:
-            raise unknown("wall", quoted(name) if not isinstance(name, str) else name, known)
+        if name not in walls:
+            raise unknown("wall", quoted(name) if not isinstance(name, str) else name, walls)
         if not isinstance(condition, get_args(Condition)):
             raise SphearError(f"the boundary {name!r} has a condition, such as NoSlip(), not {quoted(condition)}")
         if not isinstance(condition, Periodic):
@@ -155,10 +155,10 @@ def _speed(walls: float, velocities: Array, force: Any, viscosity: float, extent
     f = math.hypot(*numbers(force))
     driven = math.sqrt(2.0 * f * extent)
     driven = min(driven, f * extent**2 / (8.0 * viscosity)) if viscosity else driven
-    found = max(walls, start, driven)
-    if not found > 0:
+    speed = max(walls, start, driven)
+    if not speed > 0:
         raise SphearError("nothing moves this fluid at the start: say how fast it will be, as in speed=1.0")
-    return found
+    return speed
 
 
 def known_walls(region: Shape) -> tuple[str, ...]:

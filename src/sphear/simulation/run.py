@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from sphear.progress import no_progress
-from sphear.schemes.base import FlowFailure, FlowInTime
+from sphear.schemes.base import Flow, FlowFailure
 from sphear.schemes.watch import LOST, Watch, unresolved
 from sphear.simulation.observers import Observer
 from sphear.simulation.pace import Copies, Savings, Slices
@@ -47,7 +47,7 @@ class Run:
     """
 
     def __init__(
-        self, flow: FlowInTime, watch: Watch, observers: Sequence[Observer], unit: float = 1.0, time_name: str = "t"
+        self, flow: Flow, watch: Watch, observers: Sequence[Observer], unit: float = 1.0, time_name: str = "t"
     ) -> None:
         self.flow, self.watch, self.unit, self.time_name = flow, watch, unit, time_name
         self.unresolved = unresolved(flow.problem)
@@ -196,10 +196,10 @@ class Run:
 
     def implausible(self) -> str:
         """The end of a flow that does what no fluid does, else nothing."""
-        found = self.watch.found(self.flow)
-        if found is None:
+        fault = self.watch.fault(self.flow)
+        if fault is None:
             return ""
-        return f"failed: the flow failed at t = {self.flow.time:g}: {found}, as when particles do not resolve it"
+        return f"failed: the flow failed at t = {self.flow.time:g}: {fault}, as when particles do not resolve it"
 
     @property
     def warnings(self) -> list[str]:

@@ -30,7 +30,7 @@ class About(BaseModel):
 
     Attributes:
         case: what is computed.
-        settings: how.
+        settings: by name, as JSON.
         history: a row for each output.
         seconds: spent in the time loop.
         end: of a run that has ended; empty while it goes on.

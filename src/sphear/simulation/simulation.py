@@ -13,7 +13,7 @@ from sphear.boundaries.conditions import Condition
 from sphear.boundaries.shapes import Shape
 from sphear.checked import number
 from sphear.errors import SphearError, quoted
-from sphear.schemes.base import FlowFailure, flow_in_time
+from sphear.schemes.base import FlowFailure, flow_of
 from sphear.schemes.common import Scheme
 from sphear.schemes.watch import Watch
 from sphear.simulation.chosen_scheme import chosen_scheme
@@ -108,7 +108,7 @@ class Simulation(Run):
         chosen = chosen_scheme(scheme)
         problem = problem_of(region, spacing, fluid, given, velocity, body_force, speed, length, filled)
         conditions = dict(given)
-        super().__init__(flow_in_time(problem, chosen), Watch(problem), observers)
+        super().__init__(flow_of(problem, chosen), Watch(problem), observers)
         self._judge = self._plausible = _Plausible(steps=1)
         self.filled = filled
         self.region, self.fluid, self.boundaries, self.scheme = region, fluid, conditions, chosen

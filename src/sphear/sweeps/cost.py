@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:  # sphear.schemes imports Numba, which a worker must not meet before it is set up
     from sphear.kernels import Kernel
-    from sphear.schemes.base import FlowInTime, Settings
+    from sphear.schemes.base import Flow, Settings
     from sphear.viscosity import ViscousTerm
 
 UNTIL_STEADY = 20.0  # time units, the guess where the case says when a run is over
@@ -21,7 +21,7 @@ class _Built(NamedTuple):
     particles: int
     kernel: Kernel
     term: ViscousTerm
-    scheme: type[FlowInTime]
+    scheme: type[Flow]
 
 
 class Costs:
@@ -44,7 +44,7 @@ class Costs:
         Raises:
             SphearError: the settings do not go together.
         """
-        from sphear.cases.flow import FLOWS, FlowRun
+        from sphear.cases.flow import FLOWS, CaseRun
         from sphear.cases.flow.own_walls import opened
         from sphear.schemes.base import chosen_time_step
 
@@ -56,7 +56,7 @@ class Costs:
         built = self._built.get(choice)
         duration = (settings.until or UNTIL_STEADY) * chosen.time_unit(settings)
         if built is None:
-            flow = FlowRun(chosen, quickly).flow
+            flow = CaseRun(chosen, quickly).flow
             time_step = flow.time_step
             built = self._built[choice] = _Built(len(flow.positions), flow.kernel, flow.term, type(flow))
         else:

@@ -117,7 +117,7 @@ def plan(
         [('morris', 100.0), ('morris', 400.0), ('oger', 100.0), ('oger', 400.0)]
     """
     from sphear.cases.flow import FLOWS
-    from sphear.cases.flow.chosen import flow_settings
+    from sphear.cases.flow.start import flow_settings
 
     fixed = {} if fixed is None else fixed
     _check(over, fixed)

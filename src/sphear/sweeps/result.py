@@ -9,7 +9,7 @@ from sphear.results.finite import finite
 from sphear.sweeps.trusted import shape_fault
 
 if TYPE_CHECKING:
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.sweeps.plan import Run
 
 HISTORY = 100  # rows at most
@@ -85,7 +85,7 @@ def lost(run: Run, reason: str, attempts: int = 0) -> SweepResult:
     return SweepResult(run.case, run.given, metrics, end, {"attempts": attempts} if attempts else {})
 
 
-def record(run: FlowRun) -> dict[str, Any]:
+def record(run: CaseRun) -> dict[str, Any]:
     """The result to keep of a run that has ended."""
     rows, last = run.history, len(run.history) - 1
     kept = sorted({round(number * last / (HISTORY - 1)) for number in range(HISTORY)})

@@ -59,12 +59,12 @@ def fault(record: Any, run: Run) -> str | None:
         record: as JSON has it.
         run: whose result it should be.
     """
-    if found := shape_fault(record):
-        return found
+    if wrong := shape_fault(record):
+        return wrong
     if record["case"] != run.case:
         return f"it is of {_short(record['case'])}"
-    if found := _other_settings(record["settings"], run):
-        return found
+    if wrong := _other_settings(record["settings"], run):
+        return wrong
     end, metrics = record["end"], record["metrics"]
     if metrics.get("end") != end:
         return "its end and that of its metrics differ"
@@ -84,20 +84,20 @@ def _other_settings(stored: Mapping[str, Any], run: Run) -> str | None:
     for name, wanted in run.given.items():
         if name in IMMATERIAL:
             continue
-        found = stored.get(name, usual(type(run.settings))[name])  # a setting that is newer than the result
+        value = stored.get(name, usual(type(run.settings))[name])  # a setting that is newer than the result
         if wanted is None:  # resolved, to what follows from the others
-            if isinstance(found, bool) or not isinstance(found, str | int | float | None):
-                return f"its {name} is {_short(found)}"
-        elif not _same(found, wanted):
-            return f"its {name} is {_short(found)}, not {_short(wanted)}"
+            if isinstance(value, bool) or not isinstance(value, str | int | float | None):
+                return f"its {name} is {_short(value)}"
+        elif not _same(value, wanted):
+            return f"its {name} is {_short(value)}, not {_short(wanted)}"
     return None
 
 
-def _same(found: Any, wanted: Any) -> bool:
-    if isinstance(found, bool) or isinstance(wanted, bool) or isinstance(found, str) or isinstance(wanted, str):
-        return type(found) is type(wanted) and bool(found == wanted)
+def _same(stored: Any, wanted: Any) -> bool:
+    if isinstance(stored, bool) or isinstance(wanted, bool) or isinstance(stored, str) or isinstance(wanted, str):
+        return type(stored) is type(wanted) and bool(stored == wanted)
     try:
-        return math.isclose(found, wanted, rel_tol=1e-9)  # h over dx goes through h and back
+        return math.isclose(stored, wanted, rel_tol=1e-9)  # h over dx goes through h and back
     except (TypeError, OverflowError):
         return False
 

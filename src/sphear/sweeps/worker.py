@@ -66,9 +66,9 @@ def call(path: str, case: str, payload: bytes) -> dict[str, Any]:
 
 def compute(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, on one thread where the settings do not say how many."""
-    from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow import FLOWS, CaseRun
     from sphear.sweeps.result import record
 
     if settings.get("threads", 1) is None:
         settings = {**settings, "threads": 1}
-    return record(FlowRun(FLOWS[case], FLOWS[case].settings(**settings)).run())
+    return record(CaseRun(FLOWS[case], FLOWS[case].settings(**settings)).run())

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 from sphear.algebra import Scalar, Vector, scale, subtract
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
 from sphear.errors import SphearError, quoted
 from sphear.interactions import Laplacian, ViscousAcceleration
 from sphear.kernels import Kernel
@@ -59,7 +60,7 @@ class ViscousTerm:
         """True if the term is linear in velocity and in viscosity and has no constant with a unit: units cancel."""
         return True
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """The interaction that sums up what the term needs of a particle's neighbourhood; None if nothing."""
         return correction.preparation(kernel, self.uses_second_derivatives)
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from sphear.algebra import Matrix, Scalar, Vector, apply, dot, scale, solve, trace, transpose, where_less
 from sphear.corrections import Correction
 from sphear.corrections.renormalised import LEAST_QUALITY, safe_inverse
+from sphear.engine.preparation import Preparation
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm
 from sphear.viscosity.monomials import exponents, index_pairs, monomial
@@ -113,7 +114,7 @@ class FatehiManzari(LaplacianTerm):
     source = "Fatehi & Manzari 2011, Error estimation in SPH and a new scheme for second derivatives, CMA 61:482"
     own_correction = True
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """B and the drift."""
         return FatehiManzariPreparation(kernel)
 

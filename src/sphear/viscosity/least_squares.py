@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from sphear.algebra import Scalar, Vector, dot, scale
 from sphear.corrections import Correction
+from sphear.engine.preparation import NormalEquations, Preparation
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm
@@ -26,7 +27,7 @@ class Fit(NamedTuple):
 
 
 @dataclass(frozen=True)
-class LeastSquaresPreparation:
+class LeastSquaresPreparation(NormalEquations):
     """M_ab = sum_j V_j W_ij x^(a+b) with x = (r_j - r_i) / h, and the solution of M c = the Laplacian of the basis."""
 
     kernel: Kernel
@@ -40,12 +41,8 @@ class LeastSquaresPreparation:
         weight = other.volume * self.kernel.value(r2, len(d))
         return tuple(weight * monomial(x, powers) for powers in exponents(len(d), 2, 2 * self.degree))
 
-    def finish(self, own: Any, total: Vector) -> Vector:
-        """The moments; the fit follows in `solve`, for many particles at once."""
-        return total
-
     def template(self, dimension: int) -> Fit:
-        """The form of what `solve` returns."""
+        """The form of a fit."""
         return Fit(0.0, (0.0,) * len(exponents(dimension, 1, self.degree)))
 
     def normal_equations(self, dimension: int) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
@@ -56,17 +53,6 @@ class LeastSquaresPreparation:
         place = {powers: k for k, powers in enumerate(exponents(dimension, 2, 2 * self.degree))}
         index = np.array([[place[tuple(map(sum, zip(a, b, strict=True)))] for b in basis] for a in basis])
         return index, np.array([2.0 / self.kernel.h**2 if max(a) == 2 == sum(a) else 0.0 for a in basis])
-
-    def solve(self, moments: np.ndarray[Any, Any], dimension: int) -> np.ndarray[Any, Any]:
-        """From moments (rows, m) to `Fit` (rows, 1 + n)."""
-        import numpy as np
-
-        from sphear.engine.dense import solve_normal_equations
-
-        index, right = self.normal_equations(dimension)
-        result = np.empty((len(moments), 1 + len(right)))
-        solve_normal_equations(moments.astype(np.float64, copy=False), index, right, result[:, 0], result[:, 1:])
-        return result
 
 
 @dataclass(frozen=True, repr=False)
@@ -106,7 +92,7 @@ class LeastSquares(LaplacianTerm):
         if self.degree not in DEGREES:
             raise SphearError(f"the degree of viscosity 'least_squares' must be 2, 3 or 4, not {self.degree}")
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """The fit."""
         return LeastSquaresPreparation(kernel, self.degree)
 

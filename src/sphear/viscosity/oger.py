@@ -7,6 +7,7 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector
 from sphear.corrections import Correction, Renormalised
+from sphear.engine.preparation import Preparation
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm, regularised
 
@@ -46,7 +47,7 @@ class Oger(LaplacianTerm):
     )
     own_correction = True
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """Gamma."""
         return Renormalised().preparation(kernel)
 

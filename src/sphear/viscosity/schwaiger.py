@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from sphear.algebra import Scalar, Vector, apply, dot, outer, scale, trace, transpose
 from sphear.corrections import Correction
 from sphear.corrections.renormalised import LEAST_QUALITY, RenormalisationPreparation, safe_inverse
+from sphear.engine.preparation import Preparation
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm, regularised
 
@@ -80,7 +81,7 @@ class Schwaiger(LaplacianTerm):
     source = "Schwaiger 2008; Zheng, Ma & Shao 2018, eqs. 17-19 (VISC-03)"
     own_correction = True
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """H, Gamma and the sum of the kernel gradients."""
         return SchwaigerPreparation(kernel, self.eta)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from sphear.algebra import Scalar, Vector
 from sphear.corrections import Correction
+from sphear.engine.preparation import Preparation
 from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.viscosity.base import LaplacianTerm, ViscousTerm
@@ -29,7 +30,7 @@ class MeanViscosity(LaplacianTerm):
     varies_viscosity = True
     where_it_varies = "div(mu grad u)"
 
-    def preparation(self, kernel: Kernel, correction: Correction) -> Any:
+    def preparation(self, kernel: Kernel, correction: Correction) -> Preparation | None:
         """The preparation of the term."""
         return self.term.preparation(kernel, correction)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Shape
-from sphear.cases.flow import FLOWS, FlowRun
+from sphear.cases.flow import FLOWS, CaseRun
 from sphear.schemes.incompressible.flow import IncompressibleFlow
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
@@ -55,6 +55,6 @@ def in_a_tank(
     )
 
 
-def case(name: str, **changes: Any) -> FlowRun:
+def case(name: str, **changes: Any) -> CaseRun:
     chosen = FLOWS[name]
-    return FlowRun(chosen, chosen.settings(**{"scheme": "incompressible", **changes}))
+    return CaseRun(chosen, chosen.settings(**{"scheme": "incompressible", **changes}))

@@ -12,7 +12,7 @@ from sphear.cases.flow import FLOWS
 from sphear.cases.manufactured import manufactured, relative_errors
 from sphear.errors import SphearError
 from sphear.references.manufactured import ClosedVortex
-from sphear.schemes.base import flow_in_time
+from sphear.schemes.base import flow_of
 from sphear.schemes.incompressible.flow import IncompressibleFlow
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 
@@ -64,4 +64,4 @@ def test_forces_at_the_start_of_a_step_are_far_off() -> None:
 
 def test_the_explicit_scheme_says_that_it_knows_no_such_force() -> None:
     with pytest.raises(SphearError, match="constant body forces only"):
-        flow_in_time(manufactured(EXACT, 16), FLOWS["cavity"].settings(scheme="explicit"))
+        flow_of(manufactured(EXACT, 16), FLOWS["cavity"].settings(scheme="explicit"))

@@ -90,7 +90,9 @@ def test_spray_beside_fluid_that_is_corrected() -> None:
     places = ParticleSums(x, len(x), KERNEL, np.ones(len(x)), None, 1)
     found = Viscous(VISCOSITY["fatehi_manzari"], NoCorrection(), KERNEL, 1.0).acceleration(places, u, len(x))
     np.testing.assert_allclose(found[:36], np.tile([4.0, 0.0], (36, 1)), atol=1e-9)
-    assert places.deficient(VISCOSITY["fatehi_manzari"].preparation(KERNEL, NoCorrection())).tolist() == [36, 37]
+    preparation = VISCOSITY["fatehi_manzari"].preparation(KERNEL, NoCorrection())
+    assert preparation is not None
+    assert places.deficient(preparation).tolist() == [36, 37]
 
 
 @pytest.mark.parametrize("term", list(VISCOSITY))

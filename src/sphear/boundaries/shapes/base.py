@@ -171,11 +171,11 @@ def number(what: str, value: object, finite: bool = True) -> float:
     """A number, which may be infinite only if said so; raises SphearError for anything else, naming what was given."""
     if isinstance(value, int | float | np.number) and not isinstance(value, bool):
         try:
-            found = float(value)
+            number = float(value)
         except (OverflowError, TypeError):  # of whole numbers beyond all others, and of complex ones
-            found = nan
-        if isfinite(found) or (not finite and found == found):
-            return found
+            number = nan
+        if isfinite(number) or (not finite and number == number):
+            return number
     raise SphearError(f"{what} is a finite number, not {quoted(value)}")
 
 
@@ -195,22 +195,22 @@ def by_name(what: str, value: object) -> dict[Any, Any]:
     raise SphearError(f"{what} are given by name, as {{'upper': (1, 0)}} or {{0: (1, 0)}}, not {quoted(value)}")
 
 
-def slowest(chosen: Array, velocities: Array) -> Array:
+def slowest(allowed: Array, velocities: Array) -> Array:
     """The slowest of the chosen velocities.
 
     Args:
-        chosen: (N, M), which may be taken.
+        allowed: (N, M), which may be taken.
         velocities: (M, 2) or (N, M, 2).
     """
-    velocities = np.broadcast_to(velocities, (*chosen.shape, 2))
-    best = np.argmin(np.where(chosen, (velocities**2).sum(axis=-1), inf), axis=1)
+    velocities = np.broadcast_to(velocities, (*allowed.shape, 2))
+    best = np.argmin(np.where(allowed, (velocities**2).sum(axis=-1), inf), axis=1)
     return np.asarray(velocities[np.arange(len(best)), best])
 
 
 def slipping(velocities: Array) -> Array:
     """True for walls, of velocities (N, 2), that the fluid slips along, (N,)."""
-    found: Array = velocities[:, 0] == SLIPS
-    return found
+    slips: Array = velocities[:, 0] == SLIPS
+    return slips
 
 
 def check_name(name: object) -> None:

@@ -60,7 +60,7 @@ class Compound(Shape):
         return self.word.format(", ".join(map(str, self.parts)))
 
 
-def chosen(feet: list[Foot], tiny: float, sign: float) -> Foot:
+def deciding_foot(feet: list[Foot], tiny: float, sign: float) -> Foot:
     """Choose for each point the foot of the smallest distance, or the largest if the sign is -1; equal within tiny."""
     distances = sign * np.stack([foot.distance for foot in feet], axis=1)
     best = np.argmin(distances, axis=1)
@@ -93,7 +93,7 @@ class Union(Compound):
 
     def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the shape whose fluid the point is in the deepest."""
-        return chosen([part.seen_from(points) for part in self.parts], tiny, -1.0)
+        return deciding_foot([part.seen_from(points) for part in self.parts], tiny, -1.0)
 
 
 @dataclass(frozen=True, init=False)
@@ -117,7 +117,7 @@ class Intersection(Compound):
 
     def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the shape whose wall is the nearest, or which the point is behind the farthest."""
-        return chosen([part.seen_from(points) for part in self.parts], tiny, 1.0)
+        return deciding_foot([part.seen_from(points) for part in self.parts], tiny, 1.0)
 
 
 @dataclass(frozen=True, init=False)
@@ -149,7 +149,7 @@ class Difference(Compound):
     def _foot(self, points: Array, tiny: float) -> Foot:
         """The foot of the nearest wall of any."""
         others = [negated(part.seen_from(points)) for part in self.parts[1:]]
-        return chosen([self.parts[0].seen_from(points), *others], tiny, 1.0)
+        return deciding_foot([self.parts[0].seen_from(points), *others], tiny, 1.0)
 
 
 @dataclass(frozen=True, init=False)

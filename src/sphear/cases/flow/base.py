@@ -9,12 +9,12 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from sphear.errors import SphearError, shortened
-from sphear.schemes.base import FlowInTime, Settings, settings_type
+from sphear.schemes.base import Flow, Settings, settings_type
 from sphear.schemes.presets import BY_SCHEME, preset_settings
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
-__all__ = ["Comparison", "FlowCase", "FlowInTime", "Settings"]
+__all__ = ["Case", "Comparison", "Flow", "Settings"]
 
 Array = np.ndarray[Any, Any]
 
@@ -38,7 +38,7 @@ class Comparison(NamedTuple):
     table: bool = False
 
 
-class FlowCase(ABC):
+class Case(ABC):
     """A flow with a reference solution.
 
     Attributes:
@@ -71,26 +71,26 @@ class FlowCase(ABC):
         """The time that `until` and the printed times are multiples of."""
 
     @abstractmethod
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Errors and the like at one moment, by name."""
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The reason for which a run is over at one moment, from its metrics: "steady", "failed: ...", or None."""
         return None
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """Findings at the end, beside the metrics; `reference_missing` says in a sentence what is not compared."""
         return {}
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """Profiles beside the reference, by name."""
         return {}
 
-    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+    def profiles(self, settings: Settings, flow: Flow) -> dict[str, list[float]]:
         """Numbers along lines, at the end, that are kept with the results of a sweep."""
         return {}
 
-    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+    def reference_history(self, settings: Settings) -> tuple[Array, Array] | None:
         """The headline where others have it, times and values; None where nobody has."""
         return None
 
@@ -123,10 +123,10 @@ class FlowCase(ABC):
         Raises:
             SphearError: there is none of that name for the scheme.
         """
-        found = preset_settings(name, scheme)
-        found.update(self.presets.get(BY_SCHEME[scheme].name(name), {}))
-        return found
+        settings = preset_settings(name, scheme)
+        settings.update(self.presets.get(BY_SCHEME[scheme].name(name), {}))
+        return settings
 
-    def explicit(self, **changes: Any) -> FlowSettings:
+    def explicit(self, **changes: Any) -> WeaklyCompressibleSettings:
         """The settings of this case for the explicit scheme, with some changed."""
-        return FlowSettings(**{**self.defaults["explicit"], **changes})
+        return WeaklyCompressibleSettings(**{**self.defaults["explicit"], **changes})

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Comparison, Flow, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references import cavity as references
 from sphear.schemes.problem import Problem
@@ -34,19 +34,19 @@ def reference(settings: Settings, time: float) -> references.CavityFlow | None:
     exp(-52.34 nu t / L^2) (Leriche & Labrosse 2004, Stokes eigenmodes in square domain, J. Comput. Phys. 200:489), to
     3e-5 by then; and at Re = 1000 the least u is within 1e-4 of the steady one at 0.08 already. None if there is none.
     """
-    for known in flows(settings):
-        if abs(known.time - time) <= EQUAL * time or (steady(settings, time) and known.time >= steady_from(settings)):
-            return known
+    for each in flows(settings):
+        if abs(each.time - time) <= EQUAL * time or (steady(settings, time) and each.time >= steady_from(settings)):
+            return each
     return None
 
 
 def flows(settings: Settings) -> list[references.CavityFlow]:
     """All flows of this Reynolds number with profiles, the best first: computed ones, and a steady one."""
     number = settings.reynolds
-    found = [references.mac(number, time) for time in references.MAC_TIMES.get(int(number), ()) if number % 1 == 0]
+    computed = [references.mac(number, time) for time in references.MAC_TIMES.get(int(number), ()) if number % 1 == 0]
     if number in references.MARCHI_REYNOLDS:
-        return [*found, references.marchi(number)]
-    return [*found, references.ghia(number)] if number in references.GHIA_REYNOLDS else found
+        return [*computed, references.marchi(number)]
+    return [*computed, references.ghia(number)] if number in references.GHIA_REYNOLDS else computed
 
 
 def steady_from(settings: Settings) -> float:
@@ -59,85 +59,86 @@ def steady(settings: Settings, time: float) -> bool:
     return time >= steady_from(settings) * (1 - EQUAL)
 
 
-def energy(known: references.CavityFlow | None, flow: FlowInTime) -> dict[str, float]:
+def energy(reference_flow: references.CavityFlow | None, flow: Flow) -> dict[str, float]:
     """Kinetic energy and, where a reference is known at this time, what it is too much in parts of that."""
     kinetic = kinetic_energy(flow)
-    found = {"kinetic_energy": kinetic}
-    if known is not None and known.energy is not None:
-        curve = known.energy
+    metrics = {"kinetic_energy": kinetic}
+    if reference_flow is not None and reference_flow.energy is not None:
+        curve = reference_flow.energy
         if 0 < flow.time <= curve.stations[-1] + flow.time_step:  # a run ends within a step of its time
             exact = float(curve.at(min(flow.time, curve.stations[-1])))
             if exact > LEAST_ENERGY:
-                found["kinetic_energy_error"] = kinetic / exact - 1.0
-    return found
+                metrics["kinetic_energy_error"] = kinetic / exact - 1.0
+    return metrics
 
 
-def centrelines(flow: FlowInTime) -> Lines:
+def centrelines(flow: Flow) -> Lines:
     """u along x = 1/2 and v along y = 1/2: the `STATIONS` that are in the fluid, and the values there."""
-    found = {}
+    lines = {}
     for component, name in enumerate("uv"):
         points = np.full((len(STATIONS), 2), 0.5 * SIDE)
         points[:, 1 - component] = STATIONS
         shape = flow.problem.shape
         inside = np.ones(len(STATIONS), bool) if shape is None else shape.distance(points) > 0
-        found[name] = STATIONS[inside], interpolated(flow, points[inside])[:, component]
-    return found
+        lines[name] = STATIONS[inside], interpolated(flow, points[inside])[:, component]
+    return lines
 
 
-def missing(time: float, known: Sequence[references.CavityFlow], from_when: float) -> dict[str, str]:
+def missing(time: float, reference_flows: Sequence[references.CavityFlow], from_when: float) -> dict[str, str]:
     """A sentence on the times of which profiles are known, if this is none of them, as `reference_missing`.
 
     Args:
         time: of the flow.
-        known: all profiles of its Reynolds number.
+        reference_flows: all profiles of its Reynolds number.
         from_when: the flow is steady.
     """
-    if not known or any(abs(flow.time - time) <= EQUAL * time for flow in known) or time >= from_when * (1 - EQUAL):
+    times = [flow.time for flow in reference_flows]
+    if not times or any(abs(known - time) <= EQUAL * time for known in times) or time >= from_when * (1 - EQUAL):
         return {}
-    parts = [f"those computed are of t = {' and '.join(f'{flow.time:g}' for flow in known if isfinite(flow.time))}"]
-    parts = parts if isfinite(known[0].time) else []
-    if not isfinite(known[-1].time):
+    parts = [f"those computed are of t = {' and '.join(f'{known:g}' for known in times if isfinite(known))}"]
+    parts = parts if isfinite(times[0]) else []
+    if not isfinite(times[-1]):
         parts.append(f"steady ones hold from t = {from_when:g} on")
     return {"reference_missing": f"no profiles are known at t = {time:.4g}: {', and '.join(parts)}"}
 
 
-def deviations(known: references.CavityFlow | None, lines: Lines) -> dict[str, float]:
+def deviations(reference_flow: references.CavityFlow | None, lines: Lines) -> dict[str, float]:
     """Deviations of profiles from a reference, for `summary`; its time is inf where it is steady."""
-    found = {"u_min": float(lines["u"][1].min())} if len(lines["u"][1]) else {}  # a cylinder may fill the line
-    if known is None:
-        return found
-    found["reference_time"] = known.time
-    for name, curve in (("u", known.u), ("v", known.v)):
+    metrics = {"u_min": float(lines["u"][1].min())} if len(lines["u"][1]) else {}  # a cylinder may fill the line
+    if reference_flow is None:
+        return metrics
+    metrics["reference_time"] = reference_flow.time
+    for name, curve in (("u", reference_flow.u), ("v", reference_flow.v)):
         stations, values = lines[name]
         if curve.table:  # published tables are compared at their own stations
             inside = curve.stations[1:-1]
             deviation = np.interp(inside, stations, values) - curve.values[1:-1]
         else:
             deviation = values - curve.at(stations)
-        found[f"{name}_mean_deviation"] = float(np.nanmean(np.abs(deviation)))
-        found[f"{name}_max_deviation"] = float(np.nanmax(np.abs(deviation)))
-    return found
+        metrics[f"{name}_mean_deviation"] = float(np.nanmean(np.abs(deviation)))
+        metrics[f"{name}_max_deviation"] = float(np.nanmax(np.abs(deviation)))
+    return metrics
 
 
-def beside(known: references.CavityFlow | None, lines: Lines) -> dict[str, Comparison]:
+def beside(reference_flow: references.CavityFlow | None, lines: Lines) -> dict[str, Comparison]:
     """Both centreline profiles with those of a reference."""
     nothing = np.empty(0)
-    found = {}
+    profiles = {}
     for name, along, where in (("u", "y", "x"), ("v", "x", "y")):
-        curve = None if known is None else getattr(known, name)
+        curve = None if reference_flow is None else getattr(reference_flow, name)
         stations, values = (nothing, nothing) if curve is None else (curve.stations, curve.values)
-        found[f"{name} on {where} = 1/2"] = Comparison(
+        profiles[f"{name} on {where} = 1/2"] = Comparison(
             along,
             *lines[name],
             stations,
             values,
-            reference_time=None if known is None else known.time,
+            reference_time=None if reference_flow is None else reference_flow.time,
             table=curve is not None and curve.table,
         )
-    return found
+    return profiles
 
 
-class Cavity(FlowCase):
+class Cavity(Case):
     """The lid-driven cavity from rest (Basa, Quinlan & Lastiwka 2009, section 6.2)."""
 
     name = "cavity"
@@ -170,23 +171,23 @@ class Cavity(FlowCase):
         """The side over the speed of the lid."""
         return SIDE / LID_SPEED
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
         return energy(next(iter(flows(settings)), None), flow)
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """Deviations of the centreline profiles from the reference, in lid speeds: mean and largest, and the least u.
 
         Without a reference of this time, it is said which there are.
         """
-        found = deviations(reference(settings, flow.time), centrelines(flow))
-        return found | missing(flow.time, flows(settings), steady_from(settings))
+        metrics = deviations(reference(settings, flow.time), centrelines(flow))
+        return metrics | missing(flow.time, flows(settings), steady_from(settings))
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """Both centreline profiles."""
         return beside(reference(settings, flow.time), centrelines(flow))
 
-    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+    def profiles(self, settings: Settings, flow: Flow) -> dict[str, list[float]]:
         """Both centreline profiles, to be kept."""
         lines = centrelines(flow)
         return {"stations": STATIONS.tolist(), **{name: values.tolist() for name, (_, values) in lines.items()}}

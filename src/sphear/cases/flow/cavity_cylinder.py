@@ -12,7 +12,7 @@ from pydantic import Field
 
 from sphear.boundaries.shapes import Circle, Rectangle
 from sphear.cases.flow import cavity
-from sphear.cases.flow.base import Comparison, FlowInTime, Settings
+from sphear.cases.flow.base import Comparison, Flow, Settings
 from sphear.cases.flow.cavity import CAVITY, LID_SPEED, SIDE, Cavity
 from sphear.cases.flow.initial import particles_in
 from sphear.errors import SphearError
@@ -20,7 +20,7 @@ from sphear.references import cavity as references
 from sphear.schemes.common import Choices
 from sphear.schemes.incompressible.settings import IncompressibleSettings
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 REFERENCE_REYNOLDS = 1000.0
 
@@ -45,7 +45,7 @@ class CylinderSettings(Cylinder, IncompressibleSettings):
     """The settings of an incompressible flow around the cylinder."""
 
 
-class ExplicitCylinderSettings(Cylinder, FlowSettings):
+class ExplicitCylinderSettings(Cylinder, WeaklyCompressibleSettings):
     """The settings of an explicit flow around the cylinder."""
 
 
@@ -66,7 +66,7 @@ def flows(settings: Settings) -> list[references.CavityFlow]:
 
 def reference(settings: Settings, time: float) -> references.CavityFlow | None:
     """The flow of the reference, if this is the time of its profiles."""
-    return next((known for known in flows(settings) if abs(known.time - time) <= cavity.EQUAL * time), None)
+    return next((each for each in flows(settings) if abs(each.time - time) <= cavity.EQUAL * time), None)
 
 
 class CavityCylinder(Cavity):
@@ -102,20 +102,20 @@ class CavityCylinder(Cavity):
             shape=shape,
         )
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Kinetic energy and, where a reference has it at this time, what it is too much in parts of that."""
         return cavity.energy(next(iter(flows(settings)), None), flow)
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """As `cavity.summary`."""
-        found = cavity.deviations(reference(settings, flow.time), cavity.centrelines(flow))
-        return found | cavity.missing(flow.time, flows(settings), inf)
+        metrics = cavity.deviations(reference(settings, flow.time), cavity.centrelines(flow))
+        return metrics | cavity.missing(flow.time, flows(settings), inf)
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """Both centreline profiles."""
         return cavity.beside(reference(settings, flow.time), cavity.centrelines(flow))
 
-    def profiles(self, settings: Settings, flow: FlowInTime) -> dict[str, list[float]]:
+    def profiles(self, settings: Settings, flow: Flow) -> dict[str, list[float]]:
         """Both centreline profiles, to be kept, each with its own stations."""
         (y, u), (x, v) = cavity.centrelines(flow).values()
         return {"y": y.tolist(), "u": u.tolist(), "x": x.tolist(), "v": v.tolist()}

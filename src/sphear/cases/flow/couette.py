@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Comparison, Flow, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references.couette import PlaneCouette
 from sphear.schemes.base import SCHEMES
@@ -25,7 +25,7 @@ def reference(settings: Settings) -> PlaneCouette:
     return PlaneCouette(GAP, KINEMATIC_VISCOSITY, settings.reynolds * KINEMATIC_VISCOSITY / GAP)
 
 
-class Couette(FlowCase):
+class Couette(Case):
     """The start-up of Couette flow between a wall at rest and one that slides."""
 
     name = "couette"
@@ -56,7 +56,7 @@ class Couette(FlowCase):
         """L^2 / nu."""
         return GAP**2 / KINEMATIC_VISCOSITY
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """The RMS error relative to the wall's velocity, and the kinetic energy over that of the steady flow."""
         along = reference(settings).velocity(flow.positions[:, 1], flow.time)
         speed = reference(settings).wall_velocity
@@ -66,12 +66,12 @@ class Couette(FlowCase):
             "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
         }
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """Steady when the slowest mode, exp(-pi^2 nu t / L^2), is below 1e-12."""
         decayed = np.exp(-(np.pi**2) * KINEMATIC_VISCOSITY * flow.time / GAP**2) < STEADY
         return "steady" if decayed else None
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """The velocities of all particles beside the start-up series."""
         y = np.linspace(0.0, GAP, 101)
         exact = reference(settings).velocity(y, flow.time)

@@ -11,7 +11,7 @@ from pydantic import Field
 
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Rectangle
-from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Flow, Settings
 from sphear.cases.size import check_size
 from sphear.errors import SphearError
 from sphear.references import dam_break as reference
@@ -63,7 +63,7 @@ def standing(heights: Array, dx: float) -> float:
     return float(reached[-1]) if len(reached) else -0.5 * dx
 
 
-class DamBreak(FlowCase):
+class DamBreak(Case):
     """A column of fluid that collapses (Martin & Moyce 1952)."""
 
     name = "dam-break"
@@ -119,7 +119,7 @@ class DamBreak(FlowCase):
         """sqrt(a / (n^2 g))."""
         return WIDTH / speed(settings)
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """The front's and the column's place over the width, and the energy over that of the start."""
         x, dx = flow.positions, flow.problem.spacing
         kinetic = 0.5 * (flow.velocities**2).sum()
@@ -131,14 +131,14 @@ class DamBreak(FlowCase):
             "energy": float((kinetic + potential) / start),
         }
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The end of a run whose front meets the opposite wall."""
         assert isinstance(settings, DamBreakSettings)
-        return AT_WALL if found["front"] > settings.tank - 2 * flow.problem.spacing else None
+        return AT_WALL if metrics["front"] > settings.tank - 2 * flow.problem.spacing else None
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """The front less that of the experiment, in column widths, at times of which it is known."""
-        measured, time = self.known(settings), flow.time * speed(settings) / WIDTH
+        measured, time = self.reference_history(settings), flow.time * speed(settings) / WIDTH
         if measured is None:
             return {}
         first, last = measured[0][0], measured[0][-1]
@@ -147,7 +147,7 @@ class DamBreak(FlowCase):
             return {"reference_missing": said}
         return {"front_deviation": self.metrics(settings, flow)["front"] - float(np.interp(time, *measured))}
 
-    def known(self, settings: Settings) -> tuple[Array, Array] | None:
+    def reference_history(self, settings: Settings) -> tuple[Array, Array] | None:
         """The front of the experiment, if this is its column."""
         assert isinstance(settings, DamBreakSettings)
         return (np.array(reference.TIMES), np.array(reference.FRONTS)) if settings.column == reference.COLUMN else None

@@ -11,7 +11,7 @@ import numpy as np
 from sphear.simulation.observers import Observer
 
 if TYPE_CHECKING:
-    from sphear.cases.flow.run import FlowRun
+    from sphear.cases.flow.run import CaseRun
     from sphear.simulation.run import Run
 
 
@@ -23,7 +23,7 @@ class CaseHistory(Observer):
 
     def look(self, run: Run) -> dict[str, float]:
         """Time in the unit of the case, steps, metrics of case and scheme, and what else is measured."""
-        mine = cast("FlowRun", run)
+        mine = cast("CaseRun", run)
         with np.errstate(all="ignore"):  # also of a flow that broke down
             metrics = {**mine.case.metrics(mine.settings, mine.flow), **mine.flow.metrics()}
             measured = mine.measured(mine)
@@ -31,6 +31,6 @@ class CaseHistory(Observer):
         return {"time": mine.flow.time / mine.unit, "steps": mine.flow.steps, **metrics, **measured}
 
 
-def nothing(_: FlowRun) -> Mapping[str, float]:
+def nothing(_: CaseRun) -> Mapping[str, float]:
     """No numbers beside those of the case."""
     return {}

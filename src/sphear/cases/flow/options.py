@@ -9,7 +9,7 @@ from sphear.corrections import Correction
 from sphear.equations_of_state import EquationOfState
 from sphear.kernels import Kernel
 from sphear.pressure import Preconditioner
-from sphear.schemes.integrators import Integrator
+from sphear.schemes.weakly_compressible.integrators import Integrator
 from sphear.shifting import Lind, ShiftingMethod
 from sphear.viscosity import ViscousTerm
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from sphear.boundaries.shapes import Shape, fastest, fitted, fluid_lattice, repeated, written
-from sphear.cases.flow.base import FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Flow, Settings
 from sphear.errors import SphearError
 from sphear.schemes.incompressible.region import fluid_of
 from sphear.schemes.problem import Problem
@@ -14,7 +14,7 @@ from sphear.simulation.whole_flow import greatest_speed, kinetic_energy
 SHARED = ("name", "defaults", "time_name", "horizon", "kinds", "presets")  # with the case without the solid
 
 
-class AroundSolid(FlowCase):
+class AroundSolid(Case):
     """A case around a solid of the user's own.
 
     Particles in the solid are left out, those nearer to it than a quarter of a spacing moved away. What the case
@@ -28,7 +28,7 @@ class AroundSolid(FlowCase):
 
     headline = "kinetic_energy"
 
-    def __init__(self, case: FlowCase, solid: Shape) -> None:
+    def __init__(self, case: Case, solid: Shape) -> None:
         self.case, self.solid = case, solid
         vars(self).update({name: getattr(case, name) for name in SHARED})
 
@@ -40,17 +40,17 @@ class AroundSolid(FlowCase):
         """The time unit of the case."""
         return self.case.time_unit(settings)
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """Kinetic energy, of a unit of depth, and the greatest speed."""
         return {"kinetic_energy": kinetic_energy(flow), "greatest_speed": greatest_speed(flow)}
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """At the horizon of the case, where nothing says until when."""
         horizon = self.case.horizon if settings.until is None else None
         return "time" if horizon is not None and flow.time >= horizon * self.time_unit(settings) else None
 
 
-def opened(case: FlowCase, settings: Settings) -> FlowCase:
+def opened(case: Case, settings: Settings) -> Case:
     """The case around the solid of its settings; without one, the case as it is."""
     return case if settings.solid == "none" else AroundSolid(case, written(settings.solid))
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Comparison, Flow, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references.poiseuille import PlanePoiseuille, rms_error
 from sphear.schemes.base import SCHEMES
@@ -39,7 +39,7 @@ def threshold(time: float, spacing: float, initial: str = "lattice") -> float:
     return np.inf if initial == "relaxed" else BROKEN_DOWN
 
 
-class Poiseuille(FlowCase):
+class Poiseuille(Case):
     """The start-up of Poiseuille flow between two walls at rest (Basa, Quinlan & Lastiwka 2009, section 6.1)."""
 
     name = "poiseuille"
@@ -70,7 +70,7 @@ class Poiseuille(FlowCase):
         """The time t* = 1 (eq. 39), in seconds."""
         return reference(settings).time(1.0)
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """RMS error (38) and kinetic energy over that of the steady flow."""
         along = reference(settings).velocity(flow.positions[:, 1], flow.time)
         steady = reference(settings).steady(flow.positions[:, 1])
@@ -79,17 +79,17 @@ class Poiseuille(FlowCase):
             "kinetic_energy": float((flow.velocities**2).sum() / (steady**2).sum()),
         }
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """The paper's rules: steady when the exact U(0, t)/U0 > 1 - 1e-12, failed when the RMS error reaches 12 %."""
         most = threshold(flow.time, flow.problem.spacing, settings.initial)
-        if not found["rms_error"] < most:
-            return f"failed: the RMS error of {found['rms_error']:.1%} is at least {most:.0%}"
+        if not metrics["rms_error"] < most:
+            return f"failed: the RMS error of {metrics['rms_error']:.1%} is at least {most:.0%}"
         centre = reference(settings)
         if centre.velocity(np.zeros(1), flow.time)[0] > (1 - STEADY) * centre.centreline_velocity:
             return "steady"
         return None
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """The velocities of all particles beside the start-up series (36), as corrected."""
         y = np.linspace(-HALF_WIDTH, HALF_WIDTH, 101)
         exact = reference(settings).velocity(y, flow.time)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.base import Case, Settings
 from sphear.cases.flow.history import CaseHistory, nothing
 from sphear.cases.flow.own_walls import opened
 from sphear.names import unknown
 from sphear.progress import no_progress
-from sphear.schemes.base import flow_in_time
+from sphear.schemes.base import flow_of
 from sphear.schemes.registered_names import named
 from sphear.schemes.watch import Watch
 from sphear.simulation.observers import Observer
@@ -30,12 +30,12 @@ OUTPUTS = 200  # of a run to its planned end
 SELDOM = 1000  # steps between two outputs, at most
 
 
-class FlowRun(Run):
+class CaseRun(Run):
     """A run of a case: where it stands, and what was found at each output.
 
     Args:
         case: what is computed.
-        settings: how.
+        settings: of the case and the scheme.
         observers: which look at the run, at intervals or times of the flow, `unit` times those that are printed.
         beyond: ends of the case that the run goes on beyond: "steady", "failed", which is too large an error or what no
             fluid does, or another. A flow that breaks down ends, and so does one at its time or its most steps.
@@ -55,7 +55,7 @@ class FlowRun(Run):
     Examples:
         >>> import sphear
         >>> run = sphear.flow("cavity", scheme="incompressible", resolution=10, until=0.05)
-        >>> isinstance(run, sphear.FlowRun), run.end
+        >>> isinstance(run, sphear.CaseRun), run.end
         (True, '')
         >>> run = run.run()
         >>> run.end, run.flow.steps, run.flow.velocities.shape
@@ -64,24 +64,24 @@ class FlowRun(Run):
 
     def __init__(
         self,
-        case: FlowCase,
+        case: Case,
         settings: Settings,
         *,
         observers: Sequence[Observer] = (),
         beyond: Collection[str] = (),
-        measured: Callable[[FlowRun], Mapping[str, float]] = nothing,
+        measured: Callable[[CaseRun], Mapping[str, float]] = nothing,
     ) -> None:
         for observer in observers:
             check_observer(observer)
         for end in beyond:
-            if end not in (known := ("steady", FAILED, *case.ends)):
-                raise unknown(f"end of {case.name} to go on beyond", end, known)
+            if end not in (ends := ("steady", FAILED, *case.ends)):
+                raise unknown(f"end of {case.name} to go on beyond", end, ends)
         settings = named(settings)
         self.beyond, self.measured = frozenset(beyond), measured
         self.case, self.settings = opened(case, settings), settings
         problem = self.case.problem(settings)
         unit = case.time_unit(settings)
-        flow = flow_in_time(problem, settings, self.planned * unit)
+        flow = flow_of(problem, settings, self.planned * unit)
         super().__init__(flow, Watch(problem), (CaseHistory(), *observers), unit, case.time_name)
 
     def __repr__(self) -> str:
@@ -89,7 +89,7 @@ class FlowRun(Run):
         settings, viscosity = self.settings, self.flow.resolved()["viscosity"]
         where = f"{self.case.time_name} = {self.flow.time / self.unit:.4g}, step {self.flow.steps}"
         return (
-            f"<FlowRun of {self.case.name}: {settings.scheme}, {viscosity}, Re = {settings.reynolds:g},"
+            f"<CaseRun of {self.case.name}: {settings.scheme}, {viscosity}, Re = {settings.reynolds:g},"
             f" {self.flow.count} particles, {where}{f', end: {self.end}' if self.end else ''}>"
         )
 
@@ -120,7 +120,7 @@ class FlowRun(Run):
         *,
         stopped: Callable[[], bool] = lambda: False,
         warn: Callable[[str], None] = aloud,
-    ) -> FlowRun:
+    ) -> CaseRun:
         """Advance until the end; a failure is an end too, and keeps all that was found.
 
         Outputs are a number of steps apart that follows from the planned end, counted from the start, and one is at

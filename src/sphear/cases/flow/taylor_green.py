@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from sphear.boundaries import Box
-from sphear.cases.flow.base import Comparison, FlowCase, FlowInTime, Settings
+from sphear.cases.flow.base import Case, Comparison, Flow, Settings
 from sphear.cases.flow.initial import particles_between
 from sphear.references.taylor_green import TaylorGreen
 from sphear.schemes.base import SCHEMES
@@ -27,12 +27,12 @@ def reference(settings: Settings) -> TaylorGreen:
     return TaylorGreen(SPEED * SIDE / settings.reynolds, SIDE, SPEED, DENSITY)
 
 
-def gone(settings: Settings, flow: FlowInTime) -> bool:
+def gone(settings: Settings, flow: Flow) -> bool:
     """True if the exact flow has decayed so far that nothing is relative to it."""
     return reference(settings).decay(flow.time) < LEAST_DECAY
 
 
-class TaylorGreenVortices(FlowCase):
+class TaylorGreenVortices(Case):
     """Decaying Taylor-Green vortices in a periodic square."""
 
     name = "taylor-green"
@@ -62,7 +62,7 @@ class TaylorGreenVortices(FlowCase):
         """L / U."""
         return SIDE / SPEED
 
-    def metrics(self, settings: Settings, flow: FlowInTime) -> dict[str, float]:
+    def metrics(self, settings: Settings, flow: Flow) -> dict[str, float]:
         """L2 error over the exact velocity, kinetic energy, and it over the exact one; NaN where that has decayed."""
         energy = kinetic_energy(flow)
         if gone(settings, flow):
@@ -74,11 +74,11 @@ class TaylorGreenVortices(FlowCase):
             "kinetic_energy_ratio": energy / reference(settings).kinetic_energy(flow.time),
         }
 
-    def ended(self, settings: Settings, flow: FlowInTime, found: dict[str, float]) -> str | None:
+    def ended(self, settings: Settings, flow: Flow, metrics: dict[str, float]) -> str | None:
         """Never before its time."""
         return None
 
-    def summary(self, settings: Settings, flow: FlowInTime) -> dict[str, Any]:
+    def summary(self, settings: Settings, flow: Flow) -> dict[str, Any]:
         """From when on nothing is relative to the exact flow, where that time has come."""
         if not gone(settings, flow):
             return {}
@@ -88,15 +88,15 @@ class TaylorGreenVortices(FlowCase):
             " and no error is relative to it"
         }
 
-    def comparisons(self, settings: Settings, flow: FlowInTime) -> dict[str, Comparison]:
+    def comparisons(self, settings: Settings, flow: Flow) -> dict[str, Comparison]:
         """The velocities of the particles near the line x = L / 4 beside the decaying vortices."""
         y = np.linspace(0.0, SIDE, 101)
         line = np.stack((np.full_like(y, 0.25 * SIDE), y), axis=1)
         near = np.abs(flow.positions[:, 0] - 0.25 * SIDE) < 0.5 * flow.problem.spacing
         exact = np.asarray(reference(settings).velocity(line, flow.time))
-        places, found = flow.positions[near, 1], flow.velocities[near]
+        places, velocities = flow.positions[near, 1], flow.velocities[near]
         return {
-            name: Comparison("y", places, found[:, component], y, exact[:, component])
+            name: Comparison("y", places, velocities[:, component], y, exact[:, component])
             for component, name in enumerate(("u near x = L / 4", "v near x = L / 4"))
         }
 

@@ -33,7 +33,7 @@ def flow_panels(
     labels: tuple[str, str],
     title: str,
     particles: tuple[ArrayLike, ArrayLike, float] | None = None,
-    known: tuple[ArrayLike, ArrayLike] | None = None,
+    reference: tuple[ArrayLike, ArrayLike] | None = None,
     distance: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None,
 ) -> Figure:
     """Draw each profile of a flow with its reference, a metric against time, and the particles by their speed.
@@ -44,7 +44,7 @@ def flow_panels(
         labels: what the times and the metric are called.
         title: of the figure.
         particles: places (N, 2), velocities (N, 2) and their spacing; None draws none.
-        known: times, and the metric that others have at each; None draws none.
+        reference: times, and the metric that others have at each; None draws none.
         distance: (M,) of places (M, 2) from walls, negative in what is solid; None draws no walls.
     """
     panels = len(comparisons) + 1 + (particles is not None)
@@ -63,8 +63,8 @@ def flow_panels(
     last = axes[len(comparisons)]
     last.plot(times, values, color=colour)
     last.set(xlabel=labels[0], ylabel=labels[1])
-    if known is not None:
-        last.plot(*known, **_TABLE)
+    if reference is not None:
+        last.plot(*reference, **_TABLE)
         referred["measured"] = Line2D([], [], **_TABLE)
     if labels[1].endswith("error") and (values[np.isfinite(values)] > 0).all():
         last.set_yscale("log")

@@ -29,8 +29,8 @@ class BlockPreconditioner:
     """
 
     def __init__(self, of: CoupledStep) -> None:
-        self.of, self.viscosity = of, of.how.viscosity
-        self.inverse = of.how.pressures.preconditioner.build(of.equation.system)
+        self.of, self.viscosity = of, of.solver.viscosity
+        self.inverse = of.solver.pressures.preconditioner.build(of.equation.system)
         self.velocity_inverse = self._velocity_inverse()
 
     def __call__(self, z: Array) -> Array:
@@ -61,7 +61,7 @@ class BlockPreconditioner:
         if not factor:
             return None
         of = self.of
-        system = of.how.pressures.assembly.velocity_system(
+        system = of.solver.pressures.assembly.velocity_system(
             of.operators.particles, of.operators.interpolation, 1.0 / factor
         )
         inverse = Grid().build(system)

@@ -92,7 +92,7 @@ def coupled(
 
     Args:
         problem: what is computed.
-        settings: how.
+        settings: of the scheme.
         pressures: the pressure equation.
         h: the smoothing length.
         time_step: dt.

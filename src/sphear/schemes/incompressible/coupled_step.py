@@ -41,20 +41,20 @@ class CoupledStep:
     """The equation of one step; velocities and pressures are one vector, as speeds.
 
     Args:
-        how: the solver.
+        solver: of such steps.
         operators: at the places where forces act.
         step: its velocities, forces and shares.
     """
 
-    def __init__(self, how: Coupled, operators: DifferentialOperators, step: StepInputs) -> None:
-        self.how, self.operators, self.step = how, operators, step
-        pressures, self.h = how.pressures, operators.how.kernel.h
+    def __init__(self, solver: Coupled, operators: DifferentialOperators, step: StepInputs) -> None:
+        self.solver, self.operators, self.step = solver, operators, step
+        pressures, self.h = solver.pressures, operators.discretisation.kernel.h
         self.density = pressures.density
-        self.tau = min(step.length, how.limit)
+        self.tau = min(step.length, solver.limit)
         self.kept = self.tau / step.length
         self.unit = self.density * self.h / self.tau  # of pressures
         assembly = pressures.assembly
-        still = np.zeros((operators.particles.total - operators.how.count, step.velocities.shape[1]))
+        still = np.zeros((operators.particles.total - operators.discretisation.count, step.velocities.shape[1]))
         nothing = assembly.jump(still, self.density, operators.way())
         self.equation: PressureEquation = assembly.equation(operators.particles, operators.interpolation, nothing, None)
         self.coupling = assembly.wall_coupling(self.equation)
@@ -63,7 +63,7 @@ class CoupledStep:
         self.before = (1.0 - step.share) * operators.viscous(u) + step.force
         self.start = operators.divergent(u, -step.moved)
         self.still = operators.divergent(np.zeros_like(u))
-        self.source = how.relief * pressures.crowding(operators)
+        self.source = solver.relief * pressures.crowding(operators)
         if step.moved:
             d = u.shape[1]
             slopes = operators.slopes(self.start).reshape(-1, d, d)
@@ -75,7 +75,7 @@ class CoupledStep:
         Raises:
             SphearError: the solution did not converge.
         """
-        pressures, u = self.how.pressures, self.step.velocities
+        pressures, u = self.solver.pressures, self.step.velocities
         guess = np.concatenate((u.ravel(), self._packed(pressures.fluid, pressures.on_walls) / self.unit))
         constant = self.residual(np.zeros_like(guess))
         scale = norm(constant) or 1.0
@@ -88,14 +88,14 @@ class CoupledStep:
         run = flexible_gmres(
             times, -constant / scale, guess / scale, self.precondition, viscous.TOLERANCE, viscous.MOST
         )
-        found = scale * run.values
-        residual = norm(self.residual(found))
+        solution = scale * run.values
+        residual = norm(self.residual(solution))
         if not residual <= viscous.DRIFT * floor:
             raise SphearError(
                 f"the implicit viscous step was not solved: after {run.iterations} iterations its relative residual is"
                 f" {residual / scale:.2g} where {viscous.TOLERANCE:g} is asked for; take a smaller time step"
             )
-        w, p = self._parts(found)
+        w, p = self._parts(solution)
         pressures.iterations, pressures.residual = run.iterations, residual / scale
         pressures.keep(self.equation, p)
         jump = self._jump(self._even(w))
@@ -119,8 +119,8 @@ class CoupledStep:
         return self.operators.even(self.step.share * self.operators.viscous(w) + self.before)
 
     def _jump(self, even: Array) -> Array:
-        pressures, operators = self.how.pressures, self.operators
-        walls, count = pressures.walls, operators.how.count
+        pressures, operators = self.solver.pressures, self.operators
+        walls, count = pressures.walls, operators.discretisation.count
         at_walls = even[count:]
         if walls is not None:
             at_walls = at_walls - 2.0 * self.step.moved / self.step.length * walls.accelerations
@@ -128,14 +128,14 @@ class CoupledStep:
 
     def residual(self, z: Array) -> Array:
         """The errors of both equations, as speeds."""
-        step, operators, kept, how = self.step, self.operators, self.kept, self.how.pressures
+        step, operators, kept, pressures = self.step, self.operators, self.kept, self.solver.pressures
         w, p = self._parts(z)
         even = self._even(w)
         count = len(w)
         jump = self._jump(even)
         fluid = np.empty(count)
         fluid[self.equation.order] = p[:count]
-        values = how.with_walls(operators, fluid, p[count:], jump)
+        values = pressures.with_walls(operators, fluid, p[count:], jump)
         force = even[:count] - operators.pressure_gradient(values) / self.density
         momentum = kept * (w - step.velocities) - self.tau * force
         field = self.tau * even + kept * self.start
@@ -148,10 +148,10 @@ class CoupledStep:
         off = self.h * (np.zeros(len(p)) - self.tau / self.density * laplacian)
         off[:count] += self.h * divergence[self.equation.order]
         if len(p) > count:
-            walls = how.walls
+            walls = pressures.walls
             assert walls is not None
             at_walls = even[count:] - 2.0 * step.moved / step.length * walls.accelerations
-            off[count:] += self.h * self.tau / self.density * how.wall_source(at_walls)
+            off[count:] += self.h * self.tau / self.density * pressures.wall_source(at_walls)
         if self.equation.system.singular:
             off -= off.mean()
         return np.concatenate((momentum.ravel(), off))

@@ -24,7 +24,7 @@ class Discretisation:
 
     Args:
         problem: what is computed.
-        settings: how.
+        settings: of the scheme.
         kernel: with its smoothing length.
         viscous: the viscous acceleration.
         threads: to compute on.

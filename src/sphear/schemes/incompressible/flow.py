@@ -51,7 +51,7 @@ class IncompressibleFlow:
 
     Args:
         problem: what is to be computed.
-        settings: how.
+        settings: of the scheme.
         duration: how long a run of it takes, where that is known; implicit viscous steps resolve it.
 
     Attributes:

@@ -85,8 +85,8 @@ def surface(particles: ParticleSums, spacing: float, lattice_sum: float) -> Surf
         lattice_sum: the concentration of a lattice.
     """
     kernel, count, dimension = particles.kernel, particles.count, particles.positions.shape[1]
-    found = particles.sum(Concentration(kernel))
-    total, slope, moment = found[:, 0], found[:, 1 : dimension + 1], found[:, dimension + 1 :]
+    sums = particles.sum(Concentration(kernel))
+    total, slope, moment = sums[:, 0], sums[:, 1 : dimension + 1], sums[:, dimension + 1 :]
     moment = moment.reshape(count, dimension, dimension)
     concentration = total / lattice_sum
     inward = slope / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
@@ -125,9 +125,9 @@ def wetted(points: Array, fluid: Array, spacing: float) -> Array:
     return result
 
 
-def along_surface(shift: Array, found: Surface) -> Array:
+def along_surface(shift: Array, free_surface: Surface) -> Array:
     """Shifts (N, d) without their part across the surface near it, and none on it (Lind et al. 2012)."""
-    across = (shift * found.inward).sum(axis=1, keepdims=True) * found.inward
-    result = np.where(found.near[:, None], shift - across, shift)
-    result[found.on] = 0.0
+    across = (shift * free_surface.inward).sum(axis=1, keepdims=True) * free_surface.inward
+    result = np.where(free_surface.near[:, None], shift - across, shift)
+    result[free_surface.on] = 0.0
     return result

@@ -8,6 +8,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from sphear.engine.formula import Interaction, Shape
+from sphear.engine.preparation import Preparation
+from sphear.engine.preparing import PreparationSweep, deficient
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
 from sphear.engine.weights import chunk_weights, pair_weights
@@ -16,7 +18,7 @@ from sphear.neighbours import Chunk, Domain, Neighbours
 from sphear.neighbours.sparse import sparse_rows
 
 Array = np.ndarray[Any, Any]
-Prepared = tuple[tuple[Shape, ...], list[Array]]
+Prepared = tuple[tuple[Shape, ...], list[Array]]  # the form of a particle's numbers, and these chunk by chunk
 
 
 def in_box(positions: Array, domain: Domain | None) -> Array:
@@ -64,40 +66,24 @@ class ParticleSums:
         self.positions = positions
         self.kernel = kernel
         self.fields: dict[str, Array] = {"volume": volume}
-        self._prepared: dict[Any, Prepared] = {}
+        self._prepared: dict[Interaction, Prepared] = {}
 
-    def prepared(self, interaction: Any) -> Prepared:
-        """The numbers of an interaction that is summed up beforehand, chunk by chunk; summed up once."""
-        if interaction not in self._prepared:
-            sweep = Sweep(interaction, self.neighbours, self.fields)
+    def prepared(self, preparation: Interaction) -> Prepared:
+        """The form and the numbers of what is prepared of each particle; summed up once."""
+        if preparation not in self._prepared:
+            sweep = PreparationSweep(preparation, self.neighbours, self.fields)
+            numbers = on_threads(sweep.over, self.neighbours.chunks, self.neighbours.threads)
+            self._prepared[preparation] = sweep.template, numbers
+        return self._prepared[preparation]
 
-            def of(chunk: Chunk) -> Array:
-                rows = chunk.end - chunk.begin
-                out = np.empty((rows, sweep.outputs))
-                sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
-                solved: Array = (
-                    interaction.solve(out, self.neighbours.dimension) if hasattr(interaction, "solve") else out
-                )
-                return solved
+    def deficient(self, preparation: Preparation) -> Array:
+        """The particles whose neighbours are too few or too uneven for a preparation."""
+        chunks = zip(self.neighbours.chunks, self.prepared(preparation)[1], strict=True)
+        return np.concatenate(
+            [self.neighbours.particles(chunk)[deficient(preparation, numbers)] for chunk, numbers in chunks]
+        )
 
-            numbers = on_threads(of, self.neighbours.chunks, self.neighbours.threads)
-            template = (
-                interaction.template(self.neighbours.dimension)
-                if hasattr(interaction, "solve")
-                else sweep.formula.result
-            )
-            self._prepared[interaction] = (("prepared", template),), numbers
-        return self._prepared[interaction]
-
-    def deficient(self, interaction: Any) -> Array:
-        """The particles whose neighbours are too few or too uneven for what an interaction prepares of them."""
-        lacking = [
-            self.neighbours.particles(chunk)[~(numbers[:, 0] > interaction.least_quality)]  # a NaN is deficient too
-            for chunk, numbers in zip(self.neighbours.chunks, self.prepared(interaction)[1], strict=True)
-        ]
-        return np.concatenate(lacking)
-
-    def sum(self, interaction: Interaction, preparation: Any = None, **fields: Array) -> Array:
+    def sum(self, interaction: Interaction, preparation: Interaction | None = None, **fields: Array) -> Array:
         """An interaction summed over the neighbours of each of the N particles, (N, numbers of its result)."""
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
         sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own)
@@ -122,7 +108,7 @@ class ParticleSums:
         return [part[0] for part in parts]
 
     def matrix(
-        self, interaction: Any, preparation: Any = None, column: Array | None = None, columns: int = 0
+        self, interaction: Any, preparation: Interaction | None = None, column: Array | None = None, columns: int = 0
     ) -> csr_array:
         """The weights of an interaction; row k is that of particle `neighbours.rows[k]`.
 

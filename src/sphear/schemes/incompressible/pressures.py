@@ -51,7 +51,7 @@ class Pressures:
 
     Args:
         problem: what is computed.
-        settings: how.
+        settings: of the scheme.
         kernel: with its smoothing length.
         walls: the wall particles; None without walls.
         alpha: share of the density in the source.
@@ -101,12 +101,12 @@ class Pressures:
         """
         if self.walls is not None:  # what turns a wall turns the fluid at it, by the pressure
             accelerations = accelerations - 2.0 * later / time_step * self.walls.accelerations
-        source, found = self._source(operators, velocities, time_step, later), operators.surface
-        if found is not None:
-            source[found.alone] = 0.0
+        source, free_surface = self._source(operators, velocities, time_step, later), operators.surface
+        if free_surface is not None:
+            source[free_surface.alone] = 0.0
         jump = self.assembly.jump(accelerations, self.density, operators.way())
-        equation = self.assembly.equation(operators.particles, operators.interpolation, jump, found)
-        right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.rows.known
+        equation = self.assembly.equation(operators.particles, operators.interpolation, jump, free_surface)
+        right = np.concatenate((source[equation.order], self.wall_source(accelerations))) - equation.rows.jump_terms
         guess = np.concatenate((self.fluid[equation.order], self.on_walls))
         floor = self._rounding(operators, velocities, accelerations, time_step) * math.sqrt(len(right))
         solution = solve(equation.system, right, guess, self.preconditioner, self.tolerance, floor=floor)
@@ -146,7 +146,7 @@ class Pressures:
         Where a flow is at rest, uniform or parallel these cancel, and what is left is judged by their own sizes: places
         over the smoothing length, which the density knows, and velocities over it, those that walls balance included.
         """
-        h = operators.how.kernel.h
+        h = operators.discretisation.kernel.h
         speed = np.abs(velocities).max(initial=0.0) + step * np.abs(accelerations).max(initial=0.0)
         place = 1.0 + np.abs(operators.particles.positions).max(initial=0.0) / h
         rate = speed / h + self.alpha * place / step

@@ -126,31 +126,32 @@ class Incompressible(Scheme):
     @property
     def wall_model(self) -> WallModel:
         """The wall model, with its continuation and divergence."""
-        found: WallModel = self._object("walls")
-        return found
+        model: WallModel = self._object("walls")
+        return model
 
     @property
     def shifting_method(self) -> ShiftingMethod:
         """The way of shifting, with its strength."""
-        found: ShiftingMethod = self._object("shifting")
-        return found
+        method: ShiftingMethod = self._object("shifting")
+        return method
 
     def _beside(self) -> dict[str, Any]:
         """The fields of a named wall model and shifting, where nobody says others."""
-        found: dict[str, Any] = {}
+        said: dict[str, Any] = {}
         for key, setting in self.flat.items():
             value = getattr(self, key)
-            found |= setting.said_by(setting.named[value] if isinstance(value, str) else value)
-        return found
+            said |= setting.said_by(setting.named[value] if isinstance(value, str) else value)
+        return said
 
     def accurate_step(self, duration: float) -> float:
         """A hundredth of the run by implicit viscous steps: nothing else limits them where a flow is slow."""
         return math.inf if self.viscous_step == "explicit" else duration / LEAST_STEPS
 
     def _idle(self, walled: bool) -> dict[str, tuple[str, bool]]:
+        strong = "strength" in self.flat["shifting"].own(self.shifting_method)
         return {
             **dict.fromkeys(("walls", "continuation", "wall_divergence"), (OPEN, not walled)),
-            "shifting_strength": (f"shifting={text(self.shifting)}", not hasattr(self.shifting_method, "strength")),
+            "shifting_strength": (f"shifting={text(self.shifting)}", not strong),
         }
 
 

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from sphear.corrections import NoCorrection
+from sphear.engine.preparation import Preparation
 from sphear.interactions import Gradient
 from sphear.interactions.free_surface import LaplacianMoments
 from sphear.schemes.incompressible.free_surface import Surface
@@ -27,7 +28,9 @@ Array = np.ndarray[Any, Any]
 LEAST, MOST = 1.0, 3.0  # times p_i, that it falls to its missing neighbours: to zero; 2.45 on a plane surface
 
 
-def missing_weights(particles: ParticleSums, found: Surface, moments: LaplacianMoments, preparation: Any) -> Array:
+def missing_weights(
+    particles: ParticleSums, surface: Surface, moments: LaplacianMoments, preparation: Preparation | None
+) -> Array:
     """(N,), the part of the missing neighbours in the diagonal of a Laplacian; not positive.
 
     The first moment of the weights of a lattice vanishes: summed over those missing, w_ij (p_j - p_i) is
@@ -36,19 +39,19 @@ def missing_weights(particles: ParticleSums, found: Surface, moments: LaplacianM
 
     Args:
         particles: of fluid and walls.
-        found: the surface.
+        surface: the surface.
         moments: of the Laplacian.
         preparation: that it needs.
     """
     sums = particles.sum(moments, preparation)
-    share = np.maximum(1.0 / found.concentration - 1.0, 0.0)
-    sheet = np.where(found.on, 2.0 * found.depth * sums[:, 0] * share, 0.0)
+    share = np.maximum(1.0 / surface.concentration - 1.0, 0.0)
+    sheet = np.where(surface.on, 2.0 * surface.depth * sums[:, 0] * share, 0.0)
     first = np.linalg.norm(sums[:, 1:], axis=1)
-    result: Array = np.where(found.near, -np.maximum(first, sheet) / found.depth, 0.0)
+    result: Array = np.where(surface.near, -np.maximum(first, sheet) / surface.depth, 0.0)
     return result
 
 
-def surface_gradient(particles: ParticleSums, found: Surface, pressures: Array) -> Array:
+def surface_gradient(particles: ParticleSums, surface: Surface, pressures: Array) -> Array:
     """(N, d), grad p with the missing neighbours, to be taken near the surface.
 
         grad p_i = sum_j V_j (p_j - p_i) grad W_ij + k_i p_i sum_j V_j grad W_ij
@@ -59,13 +62,13 @@ def surface_gradient(particles: ParticleSums, found: Surface, pressures: Array) 
 
     Args:
         particles: of fluid and walls.
-        found: the surface.
+        surface: the surface.
         pressures: (P,), of both.
     """
     count = particles.count
     plain = particles.sum(Gradient(particles.kernel, NoCorrection(), True), None, values=pressures[:, None])
-    short = 1.0 - np.einsum("na,nab,nb->n", found.inward, found.moment, found.inward)
-    length = found.depth * np.linalg.norm(found.slope, axis=1)
+    short = 1.0 - np.einsum("na,nab,nb->n", surface.inward, surface.moment, surface.inward)
+    length = surface.depth * np.linalg.norm(surface.slope, axis=1)
     fall = np.clip(short / np.maximum(length, 1e-300), LEAST, MOST)
-    result: Array = plain + (fall * pressures[:count])[:, None] * found.slope
+    result: Array = plain + (fall * pressures[:count])[:, None] * surface.slope
     return result

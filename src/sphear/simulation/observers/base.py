@@ -106,7 +106,7 @@ class Observer:
         if self.steps is not None:
             return self.steps - flow.steps % self.steps
         if self.when is not None:
-            return next((step - flow.steps for step in self._chosen(run) if step > flow.steps), math.inf)
+            return next((step - flow.steps for step in self._steps_of_times(run) if step > flow.steps), math.inf)
         if self.every is None:
             return math.inf
         step = flow.time_step
@@ -119,13 +119,13 @@ class Observer:
         if self.steps is not None:
             return flow.steps % self.steps == 0
         if self.when is not None:
-            return flow.steps in self._chosen(run)
+            return flow.steps in self._steps_of_times(run)
         if self.every is None:
             return False
         now, before = flow.time + ROUNDING * flow.time_step, flow.time - (1 - ROUNDING) * flow.time_step
         return math.floor(now / self.every) > math.floor(before / self.every)
 
-    def _chosen(self, run: Run) -> list[int]:
+    def _steps_of_times(self, run: Run) -> list[int]:
         """The steps nearest to the times of its own."""
         assert self.when is not None
         return [round(time / run.flow.time_step) for time in self.when]

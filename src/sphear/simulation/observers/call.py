@@ -19,9 +19,7 @@ class Call(Observer):
 
     Args:
         function: of the simulation.
-        every: interval of time between two looks.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`.
         at_start: whether to look before the first step too.
 
     Raises:
@@ -70,9 +68,7 @@ class StopWhen(Call):
 
     Args:
         function: of the simulation.
-        every: interval of time between two looks.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`.
         at_start: whether to look before the first step too.
 
     Examples:

@@ -21,9 +21,7 @@ class History(Observer):
     """Time, steps, kinetic energy, greatest speed and what the scheme says of itself, at every look.
 
     Args:
-        every: interval of time between two looks.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`.
 
     Examples:
         >>> import sphear

@@ -25,9 +25,7 @@ class Probe(Observer):
 
     Args:
         point: (2,).
-        every: interval of time between two looks.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`.
 
     Attributes:
         rows: of every look, (time, velocity (2,)).

@@ -33,9 +33,7 @@ class Profile(Observer):
         x: of a line along y; or
         y: of a line along x.
         stations: how many, wall to wall.
-        every: interval of time between two looks; without one, the profile at the end.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`; without any, the profile at the end.
         at_start: whether to look before the first step too.
 
     Attributes:

@@ -38,9 +38,7 @@ class Snapshots(Observer):
     """Copies of all particles at every look, as `rows` of `Snapshot`.
 
     Args:
-        every: interval of time between two looks.
-        steps: or the interval in steps.
-        when: or the times of all looks.
+        every, steps, when: of the looks, see `Observer`.
 
     Examples:
         >>> import sphear

@@ -10,10 +10,10 @@ import numpy as np
 
 from sphear.cases.flow.base import Settings
 from sphear.cases.flow.poiseuille import POISEUILLE, Poiseuille
-from sphear.cases.flow.run import FlowRun
-from sphear.schemes.base import FlowInTime
+from sphear.cases.flow.run import CaseRun
+from sphear.schemes.base import Flow
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from sphear.simulation.observers import Call, StopWhen
 from sphear.studies.basa2009.channel import BROKE_DOWN, advanced, reached
 from sphear.studies.rows import significant
@@ -41,10 +41,10 @@ class Disordered(Poiseuille):
         return replace(problem, positions=problem.positions + moved)
 
 
-def drifting(settings: FlowSettings, disorder: float) -> dict[str, Any]:
+def drifting(settings: WeaklyCompressibleSettings, disorder: float) -> dict[str, Any]:
     """Advance until the flow fails or has made all steps, the steady state notwithstanding."""
     case = Disordered(disorder)
-    step = FlowRun(case, settings).flow.time_step
+    step = CaseRun(case, settings).flow.time_step
     every = max(1, round(INTERVAL / settings.reynolds * POISEUILLE.time_unit(settings) / step))
     observed, failing = Call(_observed, steps=every, at_start=True), StopWhen(_failure, steps=every)
     run = advanced(settings, observed, failing, case=case)
@@ -66,7 +66,7 @@ def drifting(settings: FlowSettings, disorder: float) -> dict[str, Any]:
     }
 
 
-def _observed(run: FlowRun) -> tuple[float, float, float, Array] | None:
+def _observed(run: CaseRun) -> tuple[float, float, float, Array] | None:
     """t*, the RMS error, the kinetic energy and the heights; None of a flow that broke down."""
     if run.failed:
         return None
@@ -76,7 +76,7 @@ def _observed(run: FlowRun) -> tuple[float, float, float, Array] | None:
     return time, error, energy, heights_by_row(run.flow)
 
 
-def _failure(run: FlowRun) -> str:
+def _failure(run: CaseRun) -> str:
     """The failure of the channel by the paper's rule, in words; empty where it has not failed, or broke down."""
     if run.failed:
         return ""
@@ -84,7 +84,7 @@ def _failure(run: FlowRun) -> str:
     return said if said.startswith(BROKE_DOWN) else ""
 
 
-def heights_by_row(flow: FlowInTime) -> Array:
+def heights_by_row(flow: Flow) -> Array:
     """(n, n): y of each particle, the columns being the rows along the channel at the start."""
     n = round(math.sqrt(flow.count))
     return flow.positions[:, 1].reshape(n, n).copy()

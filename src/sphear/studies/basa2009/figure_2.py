@@ -9,7 +9,7 @@ import numpy as np
 from sphear.cases.flow.poiseuille import FAILED, HALF_WIDTH, POISEUILLE, reference
 from sphear.operators import arguments
 from sphear.results.table import Column, Table
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from sphear.simulation.observers import Call, StopWhen
 from sphear.studies.basa2009.channel import (
     BROKE_DOWN,
@@ -28,7 +28,7 @@ from sphear.studies.rows import significant
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from sphear.cases.flow.run import FlowRun
+    from sphear.cases.flow.run import CaseRun
 
 CLAIM = (
     "at Re = 0.3 the compressible channel of model E develops critical instabilities without pressure reduction, where"
@@ -57,7 +57,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     return {"viscosity": "morris", "correction": "none", "resolution": resolution, "until": until, "runs": runs}
 
 
-def _run(settings: FlowSettings, until: float) -> dict[str, Any]:
+def _run(settings: WeaklyCompressibleSettings, until: float) -> dict[str, Any]:
     """Errors at times that grow by a twentieth, and profiles at the chosen ones."""
     shown = [time for time in PROFILES[settings.pressure_reduction] if time <= until]
     looks = seconds(settings, {*shown, *np.geomspace(0.002, until, 196).tolist()})
@@ -77,7 +77,7 @@ def _run(settings: FlowSettings, until: float) -> dict[str, Any]:
     }
 
 
-def _errors(run: FlowRun) -> tuple[float, float, float]:
+def _errors(run: CaseRun) -> tuple[float, float, float]:
     """t*, the RMS error, and the row, counted from a wall, of the particle that is most off."""
     off, flow = deviation(run), run.flow
     most = HALF_WIDTH - abs(flow.positions[np.abs(off).argmax(), 1])

@@ -8,7 +8,7 @@ import numpy as np
 
 from sphear.cases.flow.poiseuille import HALF_WIDTH, POISEUILLE, reference
 from sphear.results.table import Column, Table
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from sphear.simulation.observers import Call
 from sphear.studies.basa2009.channel import (
     BROKE_DOWN,
@@ -26,7 +26,7 @@ from sphear.studies.rows import significant
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from sphear.cases.flow.run import FlowRun
+    from sphear.cases.flow.run import CaseRun
 
 CLAIM = (
     "at start-up mirroring the velocity is the worst treatment of a wall and extrapolation is good; later they are"
@@ -55,7 +55,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     return {"reynolds": settings.reynolds, "resolution": resolution, "shown": SHOWN, "near": NEAR, "runs": runs}
 
 
-def _run(settings: FlowSettings, times: tuple[float, ...]) -> dict[str, Any]:
+def _run(settings: WeaklyCompressibleSettings, times: tuple[float, ...]) -> dict[str, Any]:
     """Errors near the walls, over the channel and of the row at the wall, and the profile at `SHOWN`."""
     observed, profile = Call(_errors, when=seconds(settings, times)), Call(points, when=seconds(settings, [SHOWN]))
     run = advanced(settings, observed, profile)
@@ -64,7 +64,7 @@ def _run(settings: FlowSettings, times: tuple[float, ...]) -> dict[str, Any]:
     return {**found, "end": end, **({"profile": profile.rows[0]} if profile.rows else {})}
 
 
-def _errors(run: FlowRun) -> dict[str, float]:
+def _errors(run: CaseRun) -> dict[str, float]:
     """t*, and the errors then."""
     off, flow = deviation(run), run.flow
     distance = (HALF_WIDTH - np.abs(flow.positions[:, 1])) / flow.problem.spacing

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sphear.cases.flow import FLOWS
-from sphear.cases.flow.chosen import flow_settings
-from sphear.cases.flow.run import FlowRun
+from sphear.cases.flow.run import CaseRun
+from sphear.cases.flow.start import flow_settings
 from sphear.results.table import Column, Table
 from sphear.studies.basa2009.cavity import PARTICLES, UNTIL
 from sphear.studies.result import Agreement, Progress, StudyResult
@@ -33,7 +33,7 @@ def compute(*, quick: bool, workers: int, progress: Progress) -> dict[str, Any]:
     for reynolds, until in {100.0: 1.0}.items() if quick else UNTIL.items():
         changes: dict[str, Any] = {"reynolds": reynolds, "until": until, "resolution": 20 if quick else PARTICLES}
         case = FLOWS["cavity"]
-        run = FlowRun(case, flow_settings(case, changes, "basa2009"))
+        run = CaseRun(case, flow_settings(case, changes, "basa2009"))
         run.run(lambda text, reynolds=reynolds: progress(f"Re = {reynolds:g}: {text}"))  # type: ignore[misc]
         found.append(
             {

@@ -19,7 +19,7 @@ from sphear.studies.result import Progress
 from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.sweeps import Run, SweepResult
 
 PAPER = "zheng2018"
@@ -84,16 +84,16 @@ class Study:
     """Runs and where they are kept.
 
     Args:
-        chosen: the runs.
+        selection: the runs.
     """
 
-    def __init__(self, chosen: Iterable[Wanted]) -> None:
-        self.chosen = list(chosen)
+    def __init__(self, selection: Iterable[Wanted]) -> None:
+        self.selection = list(selection)
 
     @cached_property
     def runs(self) -> dict[Wanted, Run]:
         """By what is wanted."""
-        return {each: each.run() for each in self.chosen}
+        return {each: each.run() for each in self.selection}
 
     def compute(self, workers: int, progress: Progress = no_progress) -> dict[Wanted, SweepResult]:
         """Compute what is not kept, short runs first.
@@ -136,7 +136,7 @@ def computed(case: str, *, quick: bool, workers: int, progress: Progress) -> dic
     return data_of(case, Study(wanted(case, quick)).compute(workers, progress), quick)
 
 
-def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection[str] | None = None) -> list[Wanted]:
+def selected(cases: Collection[str], at_most: int | None = None, terms: Collection[str] | None = None) -> list[Wanted]:
     """Some of the runs of cases: of so many particles a side at most, with these terms."""
     return [
         each
@@ -148,14 +148,14 @@ def chosen(cases: Collection[str], at_most: int | None = None, terms: Collection
 
 def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     """Compute a run to its end, or to its failure, going on where it was saved last; fields are kept as profiles."""
-    from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow import FLOWS, CaseRun
     from sphear.simulation.saved import forget
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
     chosen_settings = on_one_thread(case, settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen_settings).key}.npz"
-    run = gone_on_with(lambda: FlowRun(FLOWS[case], chosen_settings), saved)
+    run = gone_on_with(lambda: CaseRun(FLOWS[case], chosen_settings), saved)
     run.run(keep=saved)
     forget(saved)
     whole = record(run)
@@ -164,7 +164,7 @@ def compute_run(case: str, settings: dict[str, Any]) -> dict[str, Any]:
     return whole
 
 
-def fields(run: FlowRun) -> dict[str, list[float | None]]:
+def fields(run: CaseRun) -> dict[str, list[float | None]]:
     """Both velocities at the centres of `POINTS` x `POINTS` squares, row by row from below, and where particles are.
 
     Where there is no fluid, the velocities are None.

@@ -100,10 +100,10 @@ def row_of(each: Wanted, result: SweepResult) -> Row:
 def reference(case: str, reynolds: float, time: float) -> CavityFlow | None:
     """The time-accurate flow at this time; None where none was computed."""
     if case == "cavity-cylinder":
-        found = cavity_cylinder() if reynolds == 1000.0 else None
+        flow = cavity_cylinder() if reynolds == 1000.0 else None
     else:
-        found = mac(reynolds, {100.0: 20, 1000.0: 40}[reynolds]) if reynolds in (100.0, 1000.0) else None
-    return found if found is not None and math.isclose(time, found.time, rel_tol=SAME_TIME) else None
+        flow = mac(reynolds, {100.0: 20, 1000.0: 40}[reynolds]) if reynolds in (100.0, 1000.0) else None
+    return flow if flow is not None and math.isclose(time, flow.time, rel_tol=SAME_TIME) else None
 
 
 def papers_reference(case: str) -> CavityFlow:
@@ -142,11 +142,11 @@ def least(curve: Curve) -> float:
     return float(np.nanmin(curve.at(fine)))
 
 
-def deviations(curve: Curve, known: Curve) -> NDArray[np.float64]:
+def deviations(curve: Curve, reference: Curve) -> NDArray[np.float64]:
     """Deviations of two profiles at the inner stations that are in the fluid, those of a table at its own."""
-    few = known.stations if known.table else curve.stations
-    inner = np.array([x for x in few if 0 < x < 1 and not (known.gap and GAP[0] <= x <= GAP[1])])
-    return np.abs(curve.at(inner) - known.at(inner))
+    few = reference.stations if reference.table else curve.stations
+    inner = np.array([x for x in few if 0 < x < 1 and not (reference.gap and GAP[0] <= x <= GAP[1])])
+    return np.abs(curve.at(inner) - reference.at(inner))
 
 
 def scores(case: str, row: Row) -> Row:
@@ -161,18 +161,18 @@ def scores(case: str, row: Row) -> Row:
     mine = curves(case, row)
     if not mine:
         return {}
-    found: Row = {"u_min": least(mine["u"])}
-    known = reference(case, row["reynolds"], row["time"])
-    if known is None:
-        return {name: significant(value) for name, value in found.items()}
-    off = {name: deviations(mine[name], curve) for name, curve in (("u", known.u), ("v", known.v))}
-    found["u_min_error"] = found["u_min"] - least(known.u)
+    row_scores: Row = {"u_min": least(mine["u"])}
+    reference_flow = reference(case, row["reynolds"], row["time"])
+    if reference_flow is None:
+        return {name: significant(value) for name, value in row_scores.items()}
+    off = {name: deviations(mine[name], curve) for name, curve in (("u", reference_flow.u), ("v", reference_flow.v))}
+    row_scores["u_min_error"] = row_scores["u_min"] - least(reference_flow.u)
     for name, each in off.items():
-        found |= {f"{name}_deviation": float(each.mean()), f"{name}_deviation_max": float(each.max())}
-    found["deviation"] = fmean(float(each.mean()) for each in off.values())
+        row_scores |= {f"{name}_deviation": float(each.mean()), f"{name}_deviation_max": float(each.max())}
+    row_scores["deviation"] = fmean(float(each.mean()) for each in off.values())
     if row["reynolds"] == REYNOLDS:
         paper = papers_reference(case)
-        found["paper_err"] = abs(found["u_min"] - papers_u_min(case))
+        row_scores["paper_err"] = abs(row_scores["u_min"] - papers_u_min(case))
         both = (deviations(mine["u"], paper.u), deviations(mine["v"], paper.v))
-        found["paper_deviation"] = fmean(float(each.mean()) for each in both)
-    return {name: significant(value) for name, value in found.items()}
+        row_scores["paper_deviation"] = fmean(float(each.mean()) for each in both)
+    return {name: significant(value) for name, value in row_scores.items()}

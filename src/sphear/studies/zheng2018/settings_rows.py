@@ -29,11 +29,11 @@ class Search:
     """Runs, and what is kept of them.
 
     Args:
-        chosen: the runs, in the order in which they are computed.
+        tried: the runs, in the order in which they are computed.
     """
 
-    def __init__(self, chosen: Iterable[Tried]) -> None:
-        self.runs: dict[Tried, Run] = {each: each.run() for each in chosen}
+    def __init__(self, tried: Iterable[Tried]) -> None:
+        self.runs: dict[Tried, Run] = {each: each.run() for each in tried}
 
     def compute(self, workers: int, progress: Progress = no_progress) -> dict[Tried, SweepResult]:
         """Compute what is not kept: short runs of all readings first.

@@ -12,7 +12,7 @@ from sphear.studies.zheng2018.settings_combinations import BY_NAME, FINE, LONG, 
 from sphear.studies.zheng2018.single_runs import gone_on_with, on_one_thread, planned
 
 if TYPE_CHECKING:
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.schemes.incompressible.flow import IncompressibleFlow
     from sphear.sweeps import Run
 
@@ -69,7 +69,7 @@ def disorder(flow: IncompressibleFlow) -> float:
     return float(np.sqrt((sums**2).sum(axis=1).mean()) * flow.problem.spacing)
 
 
-def measured(run: FlowRun) -> dict[str, float]:
+def measured(run: CaseRun) -> dict[str, float]:
     """The disorder and the least pressure."""
     from sphear.schemes.incompressible.flow import IncompressibleFlow
 
@@ -82,14 +82,14 @@ def compute_reading(case: str, settings: dict[str, Any]) -> dict[str, Any]:
 
     It goes on where it was saved last, also by a shorter run of the same settings.
     """
-    from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow import FLOWS, CaseRun
     from sphear.simulation.saved import forget
     from sphear.sweeps import Run
     from sphear.sweeps.result import record
 
     chosen = on_one_thread(case, settings)
     saved = runs_folder(PAPER) / f"{Run(case, chosen.model_copy(update={'until': UNTIL})).key}.npz"
-    run = gone_on_with(lambda: FlowRun(FLOWS[case], chosen, measured=measured), saved)
+    run = gone_on_with(lambda: CaseRun(FLOWS[case], chosen, measured=measured), saved)
     run.run(keep=saved)
     if run.end == "time" and chosen.until != UNTIL:
         run.save(saved)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from sphear.errors import SphearError
 
 if TYPE_CHECKING:
-    from sphear.cases.flow import FlowRun
+    from sphear.cases.flow import CaseRun
     from sphear.schemes.base import Settings
     from sphear.sweeps import Run
 
@@ -30,7 +30,7 @@ def on_one_thread(case: str, settings: dict[str, Any]) -> Settings:
     return FLOWS[case].settings(**settings)
 
 
-def gone_on_with(start: Callable[[], FlowRun], saved: Path) -> FlowRun:
+def gone_on_with(start: Callable[[], CaseRun], saved: Path) -> CaseRun:
     """A run as it was saved last; at its start where nothing is saved, or what is saved cannot be gone on with.
 
     Args:

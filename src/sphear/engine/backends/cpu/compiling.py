@@ -18,6 +18,7 @@ from sphear.engine.backends.cpu.per_particle import per_particle
 from sphear.engine.backends.cpu.written import WrittenStage
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Shape
+from sphear.engine.preparation import NormalEquations, form_of
 from sphear.engine.stages import (
     CheckFinite,
     CheckPositive,
@@ -136,21 +137,23 @@ class Compiler:
     def _prepare(self, stage: Prepare) -> None:
         self._joined = False
         preparation = stage.preparation
-        if hasattr(preparation, "solve"):
-            sums = f"sums of {stage.result}"
-            width = self._sum(stage, Sum(preparation, stage.rows, stage.columns, sums, by_row=True))
-            moments, right = preparation.normal_equations(self._dimension)
-            unknowns = len(right)
-            self._memory.for_entries(stage.result, 1 + unknowns)
-            self._call(stage, preparing.solve, (
-                self._constant([width, unknowns, SIZES[stage.rows]], np.int64), sums,
-                self._constant(moments, np.int64), self._constant(right), stage.result,
-            ))  # fmt: skip
-            form, width = preparation.template(self._dimension), 1 + unknowns
-        else:
-            summed = Sum(preparation, stage.rows, stage.columns, stage.result, by_row=True)
-            width = self._sum(stage, summed)
-            form = summed.traced(self._fields, self._dimension).result
+        of_sums = f"sums of {stage.result}" if isinstance(preparation, NormalEquations) else stage.result
+        summed = Sum(preparation, stage.rows, stage.columns, of_sums, by_row=True)
+        width = self._sum(stage, summed)
+        if isinstance(preparation, NormalEquations):
+            width = self._solve(stage, preparation, of_sums, width)
+        form = form_of(preparation, self._dimension, summed.traced(self._fields, self._dimension).result)
         self._prepared[stage.result] = (width, form)
         limits = self._constant([preparation.least_quality, width])
         self._call(stage, preparing.test, (limits, stage.result, "target"))
+
+    def _solve(self, stage: Prepare, equations: NormalEquations, of_sums: str, width: int) -> int:
+        """Append the solution of equations whose sums are so wide; the width of its result."""
+        moments, right = equations.normal_equations(self._dimension)
+        unknowns = len(right)
+        self._memory.for_entries(stage.result, 1 + unknowns)
+        self._call(stage, preparing.solve, (
+            self._constant([width, unknowns, SIZES[stage.rows]], np.int64), of_sums,
+            self._constant(moments, np.int64), self._constant(right), stage.result,
+        ))  # fmt: skip
+        return 1 + unknowns

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 from sphear.boundaries.models import MirrorParticles
-from sphear.schemes.arrays import integrated
-from sphear.schemes.columns import columns
-from sphear.schemes.evaluation import evaluation
-from sphear.schemes.formulas import Formulas
-from sphear.schemes.integrators import Step
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.arrays import integrated
+from sphear.schemes.weakly_compressible.columns import columns
+from sphear.schemes.weakly_compressible.evaluation import evaluation
+from sphear.schemes.weakly_compressible.formulas import Formulas
+from sphear.schemes.weakly_compressible.integrators import Step
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 
 def step_of(

@@ -10,31 +10,22 @@ import numpy as np
 
 from sphear.boundaries import CONTINUATIONS
 from sphear.engine.backends.cpu import Program, Space
-from sphear.engine.memory import LARGE, keep_freed_memory
 from sphear.engine.stages import CAUSES, THROUGH_A_WALL, EnterBox
 from sphear.engine.threads import loop_threads, thread_count
-from sphear.errors import SphearError
 from sphear.kernels import Kernel
 from sphear.operators import arguments
-from sphear.schemes.arrays import fields_at_start, integrated
-from sphear.schemes.base import (
-    FlowFailure,
-    check_kernel,
-    check_start,
-    check_state,
-    chosen_time_step,
-    described,
-    fineness,
-)
-from sphear.schemes.diagnostics import diagnostics
-from sphear.schemes.formulas import formulas
+from sphear.schemes.base import FlowFailure, check_start, check_state, chosen_time_step, described
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
 from sphear.schemes.registered_names import named
-from sphear.schemes.settings import WeaklyCompressible
-from sphear.schemes.sound_speed import energy_at_rest, sound_speed
-from sphear.schemes.step import step_of
-from sphear.schemes.walls_of_regions import check_region, chosen_for, gone_through
+from sphear.schemes.weakly_compressible.arrays import fields_at_start, integrated
+from sphear.schemes.weakly_compressible.diagnostics import diagnostics
+from sphear.schemes.weakly_compressible.formulas import formulas_of
+from sphear.schemes.weakly_compressible.room import check_room
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.sound_speed import energy_at_rest, sound_speed
+from sphear.schemes.weakly_compressible.step import step_of
+from sphear.schemes.weakly_compressible.walls_of_regions import gone_through, region_of, with_possible_walls
 from sphear.viscosity import ViscousTerm
 
 Array = np.ndarray[Any, Any]
@@ -42,15 +33,16 @@ Array = np.ndarray[Any, Any]
 OF_WALLS = ("walls", "wall_divergence", "density", "diffusion_form")  # which a region may change
 
 
-class Flow:
-    """A flow in time.
+class WeaklyCompressibleFlow:
+    """A flow in time by explicit steps, weakly compressible or of an ideal gas.
 
     Args:
         problem: what is to be computed.
-        settings: how.
+        settings: of the scheme.
 
     Attributes:
         problem: without the particles at the start.
+        energy_budget: None, as no work is summed up.
         time: reached.
         steps: made.
         density, pressure: of the last evaluation, in midpoint steps half a step back where they are not integrated.
@@ -60,8 +52,10 @@ class Flow:
         SphearError: the settings do not fit the problem or each other.
     """
 
+    energy_budget = None
+
     def __init__(self, problem: Problem, settings: WeaklyCompressible) -> None:
-        settings = chosen_for(problem, settings)
+        settings = with_possible_walls(problem, settings)
         self.problem, self.settings = problem, settings
         self.time, self.steps = 0.0, 0
         check_start(problem)
@@ -72,17 +66,18 @@ class Flow:
         self.sound_speed = sound_speed(problem, settings)
         self.limits = self.limits_of(problem, settings, self.kernel, self.term)
         self.time_step = chosen_time_step(self.limits, settings)
-        chosen = formulas(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
-        self._check_room(len(chosen.stages))
+        formulas = formulas_of(settings, problem, self.term, self.kernel, self.sound_speed, self.time_step)
+        check_room(problem, settings, self.kernel, len(formulas.stages))
         integrator = settings.time_integrator
         at_rest = energy_at_rest(problem, settings)
-        self._fields = fields_at_start(settings, problem, chosen, self.kernel, integrator, at_rest)
-        self._step = step_of(problem, settings, chosen, set(self._fields), self.sound_speed, self.time_step)
-        self._restored = integrator.kept(integrated(chosen)) if integrator.restores else ()
+        self._fields = fields_at_start(settings, problem, formulas, self.kernel, integrator, at_rest)
+        self._step = step_of(problem, settings, formulas, set(self._fields), self.sound_speed, self.time_step)
+        self._restored = integrator.kept(integrated(formulas)) if integrator.restores else ()
         self._fresh = False  # whether the rates are those of the state
         self._body_force = np.array(problem.body_force, np.float64)
         self.threads = min(thread_count(settings.threads, self.count), loop_threads())
         self._program = self._compiled()
+        self._region = region_of(problem)
         nothing = np.empty((0, problem.positions.shape[1]))  # the start would be a tenth of a large flow's memory
         self.problem = replace(problem, positions=nothing, velocities=nothing)
 
@@ -140,21 +135,6 @@ class Flow:
         """Acceleration du/dt of the particles by the last evaluation, (N, d), a speed by a time."""
         return self._fields["acceleration"][: self.count]
 
-    def _check_room(self, stages: int) -> None:
-        problem, settings = self.problem, self.settings
-        reach = stages * self.kernel.radius
-        supports = "the kernel's support of {}" if stages == 1 else f"{stages} supports of the kernel of {{}}"
-        reaches = f"{supports.format(f'{reach:g}')} {'reaches' if stages == 1 else 'reach'} beyond"
-        for axis in () if problem.shape is not None else problem.box.wall_axes:
-            width = problem.box.upper[axis] - problem.box.lower[axis]
-            if reach > width:
-                raise SphearError(
-                    f"{fineness(problem, settings)} is too coarse for walls={text(settings.walls)}: {reaches} the"
-                    f" width of {width:g} between the walls"
-                )
-        check_kernel(problem, self.kernel, settings, connected=False)
-        check_region(problem, self.kernel, stages)
-
     def advance(self, steps: int) -> None:
         """Make steps.
 
@@ -163,8 +143,6 @@ class Flow:
         """
         if self.threads > 1:
             numba.set_num_threads(self.threads)
-        if self.count > LARGE:
-            keep_freed_memory()
         if self.threads > 1 and loop_threads() == 1:  # made before this process was forked
             self.threads = 1
             self._program = self._compiled()
@@ -181,7 +159,7 @@ class Flow:
             self.steps += ended.steps + moved
             self.time = self.steps * self.time_step  # however many are made at once
         cause, particle = ended.cause, ended.particle
-        if not cause and (through := gone_through(self.problem, self.positions)) >= 0:
+        if not cause and (through := gone_through(self._region, self.problem, self.positions)) >= 0:
             cause, particle = THROUGH_A_WALL, through
         if cause:
             self._fresh = False
@@ -198,7 +176,7 @@ class Flow:
         return described(self, text(self.settings.viscosity))
 
     def metrics(self) -> dict[str, float]:
-        """Mach number, density, divergence and distances of particles now, see `sphear.schemes.diagnostics`."""
+        """Mach number, density, divergence and distances of particles now, see `diagnostics`."""
         return diagnostics(self)
 
     def resolved(self) -> dict[str, Any]:

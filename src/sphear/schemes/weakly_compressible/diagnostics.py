@@ -10,12 +10,12 @@ from sphear.schemes.checks import tree_of
 from sphear.schemes.energy import greatest_speed
 
 if TYPE_CHECKING:
-    from sphear.schemes.flow import Flow
+    from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
 
 Array = np.ndarray[Any, Any]
 
 
-def diagnostics(flow: Flow) -> dict[str, float]:
+def diagnostics(flow: WeaklyCompressibleFlow) -> dict[str, float]:
     """The state of the fluid and of its particles.
 
     - mach: the greatest speed over the speed of sound at rest.
@@ -25,13 +25,13 @@ def diagnostics(flow: Flow) -> dict[str, float]:
     - smallest_distance: of two particles, in spacings; 1 on a lattice.
     """
     problem = flow.problem
-    found = {
+    metrics = {
         "mach": greatest_speed(flow.velocities) / flow.sound_speed,
         "density_deviation": float(np.sqrt(np.mean((flow.density / problem.density - 1.0) ** 2))),
     }
     if (rate := flow.density_rate) is not None:
-        found["divergence"] = float(np.abs(rate / flow.density).mean() * problem.length / problem.speed)
+        metrics["divergence"] = float(np.abs(rate / flow.density).mean() * problem.length / problem.speed)
     if flow.count > 1 and np.isfinite(flow.positions).all():
         tree = tree_of(problem, flow.positions)
-        found["smallest_distance"] = float(np.min(tree.query(tree.data, k=2)[0][:, 1])) / problem.spacing
-    return found
+        metrics["smallest_distance"] = float(np.min(tree.query(tree.data, k=2)[0][:, 1])) / problem.spacing
+    return metrics

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from sphear.engine.stages import EnterBox, PerParticle, Rows, Stage
-from sphear.schemes.integrators.base import Integrated, Integrator, Step, checked, positive
-from sphear.schemes.point_formulas import Corrected, Drifted
+from sphear.schemes.weakly_compressible.integrators.base import Integrated, Integrator, Step, checked, positive
+from sphear.schemes.weakly_compressible.point_formulas import Corrected, Drifted
 
 
 @dataclass(frozen=True)

@@ -12,10 +12,10 @@ from sphear.boundaries import Box
 from sphear.errors import SphearError
 from sphear.interactions import DensityDiffusion, Rates
 from sphear.operators.pipeline import Operation, run
-from sphear.schemes.flow import Flow
 from sphear.schemes.presets import PRESETS
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from tests.particles import jittered
 
 COUNT = 8
@@ -41,10 +41,10 @@ def channel(velocity: tuple[float, float]) -> Problem:
 
 
 def density_rates(**changes: Any) -> np.ndarray[Any, Any]:
-    settings = FlowSettings(
+    settings = WeaklyCompressibleSettings(
         **{**PRESETS["basa2009"], "density": "continuity", "integrator": "kick_drift_kick", **changes}
     )
-    flow = Flow(channel((1.0, 0.0)), settings)
+    flow = WeaklyCompressibleFlow(channel((1.0, 0.0)), settings)
     flow.advance(0)  # evaluates the rates
     return flow.state()["density_rate"]
 
@@ -82,15 +82,17 @@ def test_diffusion_without_gradients_does_not_at_edges() -> None:
 
 @pytest.mark.parametrize(("term", "share"), [("morris", 8), ("violeau", 12), ("cleary_4.96333", 12)])
 def test_terms_along_the_line_of_centres_take_shorter_viscous_steps(term: str, share: int) -> None:
-    flow = Flow(channel((0.0, 0.0)), FlowSettings(**{**PRESETS["basa2009"], "viscosity": term}))
+    flow = WeaklyCompressibleFlow(
+        channel((0.0, 0.0)), WeaklyCompressibleSettings(**{**PRESETS["basa2009"], "viscosity": term})
+    )
     assert flow.limits["viscous"] == pytest.approx(flow.kernel.h**2 / (share * 0.1))
 
 
 def test_cleary_with_the_strongest_coefficient_is_stable_at_its_own_time_step() -> None:
-    from sphear.cases.flow import FLOWS, FlowRun
+    from sphear.cases.flow import FLOWS, CaseRun
 
     case = FLOWS["poiseuille"]
-    done = FlowRun(
+    done = CaseRun(
         case, case.settings(**{**PRESETS["basa2009"], "viscosity": "cleary_4.96333"}, reynolds=0.3, until=1.5)
     ).run()
     assert done.end == "time"
@@ -110,5 +112,5 @@ def test_contradictions_name_both_settings(changes: dict[str, Any], named: tuple
     from sphear.checked import checked
 
     with pytest.raises(SphearError) as caught, checked():
-        FlowSettings(**changes)
+        WeaklyCompressibleSettings(**changes)
     assert all(name in str(caught.value) for name in named)

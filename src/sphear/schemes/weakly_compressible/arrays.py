@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from sphear.kernels import Kernel
-from sphear.schemes.evaluation import integrated_walls
-from sphear.schemes.formulas import Formulas
-from sphear.schemes.integrators import Integrated, Integrator
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.evaluation import integrated_walls
+from sphear.schemes.weakly_compressible.formulas import Formulas
+from sphear.schemes.weakly_compressible.integrators import Integrated, Integrator
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 Array = np.ndarray[Any, Any]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Unpack
 
-from sphear.cases.flow.base import FlowCase, Settings
+from sphear.cases.flow.base import Case, Settings
 from sphear.cases.flow.options import FlowOptions
-from sphear.cases.flow.run import FlowRun
+from sphear.cases.flow.run import CaseRun
 from sphear.checked import checked
 from sphear.schemes.base import unknown_setting
 from sphear.simulation.observers import Observer
@@ -21,7 +21,7 @@ def flow(
     observers: Sequence[Observer] = (),
     beyond: Collection[str] = (),
     **settings: Unpack[FlowOptions],
-) -> FlowRun:
+) -> CaseRun:
     """A run of a flow, ready to start; velocities in those of the lid, the channel or the vortex, see the case.
 
         run = sphear.flow("cavity", scheme="incompressible", viscosity="oger", reynolds=400, until=20).run()
@@ -51,11 +51,11 @@ def flow(
     """
     from sphear.cases.flow import FLOWS
 
-    chosen = FLOWS[case]
-    return FlowRun(chosen, flow_settings(chosen, settings, preset), observers=observers, beyond=beyond)
+    named = FLOWS[case]
+    return CaseRun(named, flow_settings(named, settings, preset), observers=observers, beyond=beyond)
 
 
-def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None = None) -> Settings:
+def flow_settings(case: Case, changes: Mapping[str, Any], preset: str | None = None) -> Settings:
     """The settings of a case with some changed, each checked by itself.
 
     Args:
@@ -69,11 +69,11 @@ def flow_settings(case: FlowCase, changes: Mapping[str, Any], preset: str | None
     scheme = str(changes.get("scheme", next(iter(case.defaults))))
     behind = {} if preset is None else case.preset(preset, scheme)
     kind = case.kind(scheme)
-    changes, known = kind.flattened(changes), kind.model_fields
+    changes, valid = kind.flattened(changes), kind.model_fields
     for key in changes:
-        if key not in known:
-            raise unknown_setting(key, known, scheme)
+        if key not in valid:
+            raise unknown_setting(key, valid, scheme)
     with checked("the setting "):
-        chosen = case.settings(**{**behind, **changes})
-    chosen.unmark(behind.keys() - changes.keys())
-    return chosen
+        result = case.settings(**{**behind, **changes})
+    result.unmark(behind.keys() - changes.keys())
+    return result

@@ -17,10 +17,10 @@ from sphear.boundaries import Box
 from sphear.cases.flow import FLOWS
 from sphear.checked import checked
 from sphear.schemes.base import FlowFailure
-from sphear.schemes.flow import Flow
 from sphear.schemes.presets import PRESETS
 from sphear.schemes.problem import Problem, morris_sound_speed
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from tests.particles import jittered
 
 Array = np.ndarray[Any, Any]
@@ -30,7 +30,7 @@ SENTENCE = re.compile(r"the flow failed at t = (\S+), particle (\d+) at \((\S+),
 PAIRS = [("summation", "squares"), ("continuity", "products")]
 
 
-def channel(resolution: int = 10, **changes: Any) -> tuple[Problem, FlowSettings]:
+def channel(resolution: int = 10, **changes: Any) -> tuple[Problem, WeaklyCompressibleSettings]:
     settings = FLOWS["poiseuille"].explicit(resolution=resolution, **{**PRESETS["basa2009"], **changes})
     return FLOWS["poiseuille"].problem(settings), settings
 
@@ -58,10 +58,10 @@ def smooth(viscosity: float) -> Problem:
     return replace(start, velocities=0.3 * np.stack((np.sin(x) + np.cos(y), np.sin(x + y)), axis=1), speed=1.0)
 
 
-def conserving(**changes: Any) -> FlowSettings:
+def conserving(**changes: Any) -> WeaklyCompressibleSettings:
     """Without pressure reduction; the rule for walls, which there are none of, is that of another test."""
     usual = {**PRESETS["basa2009"], "pressure_reduction": "none", "continuation": "mirror"}
-    return FlowSettings(**{**usual, **changes})
+    return WeaklyCompressibleSettings(**{**usual, **changes})
 
 
 @pytest.mark.parametrize(
@@ -76,56 +76,56 @@ def test_sound_speed_is_that_of_the_largest_of_three(
 
 
 def test_sound_speed_can_be_given() -> None:
-    assert Flow(*channel(sound_speed=123.0)).sound_speed == 123.0
+    assert WeaklyCompressibleFlow(*channel(sound_speed=123.0)).sound_speed == 123.0
 
 
 def test_the_sound_speed_of_a_gas_follows_from_its_pressure() -> None:
     """c^2 = 1.4 p / rho."""
-    flow = Flow(*channel(equation_of_state="ideal_gas", initial_pressure=125e3))
+    flow = WeaklyCompressibleFlow(*channel(equation_of_state="ideal_gas", initial_pressure=125e3))
     assert flow.sound_speed == pytest.approx((1.4 * 125e3) ** 0.5)
     np.testing.assert_allclose(flow.energy, 125e3 / 0.4)
 
 
 def test_the_time_step_is_the_least_of_its_limits() -> None:
     problem, settings = channel(reynolds=0.5)
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     h = 0.1 / 0.637
     assert flow.kernel.h == pytest.approx(h)
     assert flow.limits["cfl"] == pytest.approx(0.25 * h / (flow.sound_speed + 1.0))  # U0 = Re nu / d = 1
     assert flow.limits["viscous"] == pytest.approx(0.125 * h**2 / 1.0)
     assert flow.limits["body_force"] == pytest.approx(0.25 * (h / 8.0) ** 0.5)  # f = 2 nu^2 Re / d^3
     assert flow.time_step == min(flow.limits.values()) == flow.limits["cfl"]
-    assert Flow(box(), conserving()).limits["body_force"] == np.inf
+    assert WeaklyCompressibleFlow(box(), conserving()).limits["body_force"] == np.inf
 
 
 def test_a_time_step_beyond_its_limit_is_refused_unless_forced() -> None:
-    limit = Flow(*channel()).time_step
-    assert Flow(*channel(time_step=limit / 2)).time_step == limit / 2
+    limit = WeaklyCompressibleFlow(*channel()).time_step
+    assert WeaklyCompressibleFlow(*channel(time_step=limit / 2)).time_step == limit / 2
     with pytest.raises(SphearError, match=rf"^the time step of \S+ is beyond the cfl limit of {limit:g}: .*--force$"):
-        Flow(*channel(time_step=2 * limit))
+        WeaklyCompressibleFlow(*channel(time_step=2 * limit))
     problem, settings = channel(sound_speed=1e-3, time_step=10.0)
     with pytest.raises(SphearError, match="body-force limit of"):
-        Flow(replace(problem, speed=1e-3, kinematic_viscosity=1e-9), settings)
-    assert Flow(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
+        WeaklyCompressibleFlow(replace(problem, speed=1e-3, kinematic_viscosity=1e-9), settings)
+    assert WeaklyCompressibleFlow(*channel(time_step=2 * limit, force=True)).time_step == 2 * limit
 
 
 @pytest.mark.parametrize("walls", ["mirror", "fixed", "adami"])
 def test_a_resolution_too_coarse_for_the_walls_is_refused(walls: str) -> None:
-    Flow(*channel(resolution=4, walls=walls))
+    WeaklyCompressibleFlow(*channel(resolution=4, walls=walls))
     with pytest.raises(SphearError, match=rf"the resolution of 3 is too coarse for walls={walls}: .* 1\.04\d+ reach"):
-        Flow(*channel(resolution=3, walls=walls))
+        WeaklyCompressibleFlow(*channel(resolution=3, walls=walls))
 
 
 def test_two_passes_need_twice_the_room() -> None:
     with pytest.raises(SphearError, match=r"the resolution of 6 is too coarse .* 2 supports"):
-        Flow(*channel(resolution=6, viscosity="two_pass"))
+        WeaklyCompressibleFlow(*channel(resolution=6, viscosity="two_pass"))
 
 
 def test_a_kernel_that_reaches_no_neighbour_is_refused() -> None:
     """The support of the cubic spline is 2 h."""
-    Flow(*channel(h_over_dx=0.51))
+    WeaklyCompressibleFlow(*channel(h_over_dx=0.51))
     with pytest.raises(SphearError, match=r"^the setting h_over_dx must be more than 0\.5 for cubic_spline, .* 0\.5$"):
-        Flow(*channel(h_over_dx=0.5))
+        WeaklyCompressibleFlow(*channel(h_over_dx=0.5))
 
 
 @pytest.mark.parametrize("what", ["position", "velocity"])
@@ -134,10 +134,10 @@ def test_a_start_that_is_no_number_is_refused(what: str, number: float) -> None:
     problem, settings = channel()
     (problem.positions if what == "position" else problem.velocities)[5, 1] = number
     with pytest.raises(SphearError, match=rf"^the initial {what} of particle 5 is not a number: .*{number}\]$"):
-        Flow(problem, settings)
+        WeaklyCompressibleFlow(problem, settings)
 
 
-def failure(flow: Flow, steps: int = 1) -> tuple[float, int, Array, str]:
+def failure(flow: WeaklyCompressibleFlow, steps: int = 1) -> tuple[float, int, Array, str]:
     """Time, particle, position and cause, read from the message."""
     with pytest.raises(FlowFailure) as caught:
         flow.advance(steps)
@@ -156,7 +156,7 @@ def test_a_particle_through_a_wall_is_the_one_reported(walls: str) -> None:
     problem.velocities[fast] = 19.0, 0.0
     problem.positions[outwards, 1] = 0.5 - 1e-9
     problem.velocities[outwards] = 0.0, 15.0 if walls == "mirror" else 8.0
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     time, particle, place, cause = failure(flow)
     assert (particle, flow.steps, time) == (outwards, 1, 0.01)
     assert "wall" in cause
@@ -170,7 +170,7 @@ def test_a_particle_through_a_mirror_changes_places_with_its_image() -> None:
     one = int(np.argmax(problem.positions[:, 1]))
     problem.positions[one, 1] = 0.5 - 1e-9
     problem.velocities[one] = 0.1, 2.0
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     flow.advance(1)
     assert flow.positions[one, 1] == pytest.approx(0.5 - 2e-6, abs=1e-7)
     np.testing.assert_allclose(flow.velocities[one], (0.1, -2.0), atol=0.01)
@@ -179,7 +179,7 @@ def test_a_particle_through_a_mirror_changes_places_with_its_image() -> None:
 def test_a_speed_above_that_of_sound() -> None:
     problem, settings = channel(sound_speed=30.0)
     problem.velocities[37, 0] = 45.0
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     _, particle, place, cause = failure(flow)
     assert particle == 37
     assert "speed of sound" in cause
@@ -190,7 +190,7 @@ def test_a_number_that_is_none_leaves_the_last_good_state() -> None:
     """A pressure beyond all numbers; fast-math must not take it for finite."""
     problem, settings = channel(sound_speed=1e160)
     problem.positions[11] += 0.01
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     time, particle, place, cause = failure(flow)
     assert "not a number" in cause
     assert np.isfinite(place).all()
@@ -204,7 +204,7 @@ def test_a_particle_alone_has_too_few_neighbours_for_a_correction() -> None:
     problem = box()
     away = replace(problem, box=Box((0.0, 0.0), (5.0, 5.0), ("periodic", "periodic")))
     away.positions[7] = 3.0, 3.0
-    time, particle, place, cause = failure(Flow(away, conserving(correction="bonet_lok")))
+    time, particle, place, cause = failure(WeaklyCompressibleFlow(away, conserving(correction="bonet_lok")))
     assert (time, particle, place.tolist()) == (0.0, 7, [3.0, 3.0])
     assert "too few neighbours" in cause
 
@@ -217,14 +217,14 @@ def test_a_density_below_zero_is_found(integrator: Any) -> None:
     )
     problem = replace(box(), velocities=np.asarray(6.0 * box().positions))
     problem.velocities[problem.positions[:, 0] > 0.5] = 0.0
-    assert "density or an energy that is not positive" in failure(Flow(problem, settings))[3]
+    assert "density or an energy that is not positive" in failure(WeaklyCompressibleFlow(problem, settings))[3]
 
 
 @pytest.mark.parametrize(("density", "form"), PAIRS)
 def test_linear_momentum_is_conserved_to_rounding(density: Any, form: str) -> None:
     problem, settings = box(), conserving(density=density)
     assert settings.form == form
-    flow = Flow(problem, settings)
+    flow = WeaklyCompressibleFlow(problem, settings)
     flow.advance(50)
     assert np.abs(flow.velocities - problem.velocities).max() > 0.1
     np.testing.assert_allclose(flow.velocities.sum(axis=0), problem.velocities.sum(axis=0), atol=1e-11)
@@ -240,7 +240,9 @@ def test_forces_along_the_line_of_centres_keep_the_angular_momentum_of_a_drop(vi
         velocities=start.velocities + 5.0 * (start.positions - 0.5) @ np.array([[0.0, 1.0], [-1.0, 0.0]]),
         box=Box((0.0, 0.0), (5.0, 5.0), ("periodic", "periodic")),
     )
-    flow = Flow(drop, conserving(viscosity=viscosity, integrator="kick_drift_kick", sound_speed=15.0, force=True))
+    flow = WeaklyCompressibleFlow(
+        drop, conserving(viscosity=viscosity, integrator="kick_drift_kick", sound_speed=15.0, force=True)
+    )
 
     def angular_momentum() -> Array:
         (x, y), (u, v) = flow.positions.T - 2.5, flow.velocities.T
@@ -253,9 +255,9 @@ def test_forces_along_the_line_of_centres_keep_the_angular_momentum_of_a_drop(vi
     assert change < 1e-13 if kept else change > 1e-4
 
 
-def advanced(problem: Problem, settings: FlowSettings, time: float, steps: int) -> Flow:
+def advanced(problem: Problem, settings: WeaklyCompressibleSettings, time: float, steps: int) -> WeaklyCompressibleFlow:
     """At a time, after so many steps."""
-    flow = Flow(problem, settings.model_copy(update={"time_step": time / steps}))
+    flow = WeaklyCompressibleFlow(problem, settings.model_copy(update={"time_step": time / steps}))
     flow.advance(steps)
     return flow
 
@@ -267,10 +269,10 @@ def test_a_gas_without_viscosity_keeps_its_energy_to_the_order_of_the_step(densi
     settings = conserving(equation_of_state="ideal_gas", initial_pressure=10.0, density=density)
     assert settings.form == form
 
-    def energy(flow: Flow) -> float:
+    def energy(flow: WeaklyCompressibleFlow) -> float:
         return float(((flow.velocities**2).sum(axis=1) / 2 + flow.energy).mean())
 
-    before = energy(Flow(problem, settings))
+    before = energy(WeaklyCompressibleFlow(problem, settings))
     kinetic = (problem.velocities**2).sum(axis=1).mean() / 2
     drifts = [abs(energy(advanced(problem, settings, 0.32, steps)) - before) / kinetic for steps in (64, 128, 256)]
     assert drifts[0] < 0.01
@@ -297,9 +299,9 @@ def test_both_integrators_are_of_second_order(integrator: Any) -> None:
 
 def test_a_moving_frame_sees_the_same_flow() -> None:
     """Galilean invariance, over a periodic side."""
-    rest = Flow(box(), conserving())
+    rest = WeaklyCompressibleFlow(box(), conserving())
     wind = np.array([3.0, -2.0])
-    moving = Flow(replace(box(), velocities=box().velocities + wind), conserving())
+    moving = WeaklyCompressibleFlow(replace(box(), velocities=box().velocities + wind), conserving())
     rest.advance(20)
     moving.advance(20)
     np.testing.assert_allclose(moving.velocities - wind, rest.velocities, atol=1e-9)
@@ -308,7 +310,7 @@ def test_a_moving_frame_sees_the_same_flow() -> None:
 
 def test_steps_can_be_made_in_parts_and_the_problem_stays_as_it_is() -> None:
     problem = box()
-    whole, parts = Flow(problem, conserving()), Flow(problem, conserving())
+    whole, parts = WeaklyCompressibleFlow(problem, conserving()), WeaklyCompressibleFlow(problem, conserving())
     whole.advance(7)
     for steps in (0, 3, 4):
         parts.advance(steps)
@@ -327,7 +329,7 @@ GOING_ON: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("changes", GOING_ON.values(), ids=GOING_ON)
 def test_a_flow_goes_on_from_its_state_bit_by_bit(changes: dict[str, Any], tmp_path: Path) -> None:
-    through, kept, again = (Flow(box(), conserving(**changes)) for _ in range(3))
+    through, kept, again = (WeaklyCompressibleFlow(box(), conserving(**changes)) for _ in range(3))
     through.advance(11)
     kept.advance(6)
     np.savez(tmp_path / "state.npz", allow_pickle=False, **kept.state())
@@ -340,7 +342,7 @@ def test_a_flow_goes_on_from_its_state_bit_by_bit(changes: dict[str, Any], tmp_p
 
 
 def test_a_state_in_memory_can_be_gone_back_to() -> None:
-    flow = Flow(box(), conserving())
+    flow = WeaklyCompressibleFlow(box(), conserving())
     flow.advance(2)
     state = flow.state()
     places = flow.positions.copy()
@@ -350,15 +352,15 @@ def test_a_state_in_memory_can_be_gone_back_to() -> None:
 
 
 def test_the_state_of_another_flow_is_refused() -> None:
-    gas = Flow(*channel(equation_of_state="ideal_gas"))
+    gas = WeaklyCompressibleFlow(*channel(equation_of_state="ideal_gas"))
     with pytest.raises(SphearError, match=r"^the saved state has no energy of the shape \(100,\): .* another flow$"):
-        gas.restore(Flow(*channel()).state())
+        gas.restore(WeaklyCompressibleFlow(*channel()).state())
     with pytest.raises(SphearError, match=r"no clock of the shape \(2,\)"):
         gas.restore({})
 
 
 def test_two_threads_compute_what_one_does() -> None:
-    one, two = (Flow(*channel(threads=threads)) for threads in (1, 2))
+    one, two = (WeaklyCompressibleFlow(*channel(threads=threads)) for threads in (1, 2))
     for flow in (one, two):
         flow.advance(10)
     np.testing.assert_allclose(two.velocities, one.velocities, rtol=1e-11, atol=1e-13)
@@ -377,7 +379,7 @@ WRONG: dict[str, Any] = {
 @pytest.mark.parametrize("name", WRONG)
 def test_a_setting_out_of_range_is_refused(name: str) -> None:
     with pytest.raises(ValidationError, match=name):
-        FlowSettings.model_validate({name: WRONG[name]})
+        WeaklyCompressibleSettings.model_validate({name: WRONG[name]})
 
 
 CONTRADICTIONS: dict[str, dict[str, Any]] = {
@@ -396,7 +398,7 @@ CONTRADICTIONS: dict[str, dict[str, Any]] = {
 @pytest.mark.parametrize("settings", CONTRADICTIONS.values(), ids=CONTRADICTIONS)
 def test_settings_that_contradict_each_other_are_both_named(settings: dict[str, Any]) -> None:
     with pytest.raises(SphearError) as caught, checked():
-        FlowSettings.model_validate(settings)
+        WeaklyCompressibleSettings.model_validate(settings)
     sentence = str(caught.value)
     for name, value in settings.items():
         assert f"{name}={value}" in sentence or name in sentence
@@ -406,7 +408,7 @@ def test_settings_that_contradict_each_other_are_both_named(settings: dict[str, 
 
 @pytest.mark.parametrize("case", [None, "poiseuille", "cavity"])
 def test_wrong_settings_are_one_sentence_however_they_are_made(case: str | None) -> None:
-    make: Any = FlowSettings if case is None else FLOWS[case].settings
+    make: Any = WeaklyCompressibleSettings if case is None else FLOWS[case].settings
     with pytest.raises(SphearError, match=r"^density_diffusion smooths the continuity equation and density=summation"):
         make(density="summation", density_diffusion=0.1)
     with pytest.raises(SphearError, match=r"^the setting reynolds should be greater than 0, not -1$"):
@@ -415,18 +417,18 @@ def test_wrong_settings_are_one_sentence_however_they_are_made(case: str | None)
 
 def test_fixed_walls_cannot_mirror_velocities() -> None:
     with pytest.raises(SphearError, match=r"^walls=fixed .* continuation=linear or quadratic, not mirror$"):
-        Flow(*channel(walls="fixed", continuation="mirror"))
+        WeaklyCompressibleFlow(*channel(walls="fixed", continuation="mirror"))
 
 
 @pytest.mark.parametrize("density", ["summation", "continuity"])
 def test_the_momentum_that_belongs_to_a_density_can_be_named(density: Any) -> None:
     form = dict(PAIRS)[density]
-    named = FlowSettings.model_validate({"density": density, "momentum": form})
-    assert named.form == FlowSettings(density=density).form == form
+    named = WeaklyCompressibleSettings.model_validate({"density": density, "momentum": form})
+    assert named.form == WeaklyCompressibleSettings(density=density).form == form
 
 
 @pytest.mark.parametrize("name", ["viscosity", "correction", "kernel", "continuation"])
 def test_a_name_that_does_not_exist_is_refused(name: str) -> None:
     wrong: Any = {name: "nobody"}
     with pytest.raises(SphearError, match=r"there is no .* named 'nobody'"):
-        Flow(*channel(**wrong))
+        WeaklyCompressibleFlow(*channel(**wrong))

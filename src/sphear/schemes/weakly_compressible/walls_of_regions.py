@@ -6,20 +6,18 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from sphear.boundaries.shapes import check_room, repeated
+from sphear.boundaries.shapes import Shape, repeated
 from sphear.errors import SphearError
-from sphear.kernels import Kernel
-from sphear.schemes.checks import check_shape
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 Array = np.ndarray[Any, Any]
-Chosen = TypeVar("Chosen", bound=WeaklyCompressible)
+Settings = TypeVar("Settings", bound=WeaklyCompressible)
 
 THROUGH = 0.5  # spacings behind a wall: the place of the first fixed particles
 
 
-def chosen_for(problem: Problem, settings: Chosen) -> Chosen:
+def with_possible_walls(problem: Problem, settings: Settings) -> Settings:
     """The settings, with fixed particles where nobody chose and mirrors cannot be.
 
     Raises:
@@ -36,26 +34,21 @@ def chosen_for(problem: Problem, settings: Chosen) -> Chosen:
     return type(settings)(**named, walls="fixed")
 
 
-def check_region(problem: Problem, kernel: Kernel, supports: int) -> None:
-    """Refuse walls that leave no room for the fluid, or none for the particles behind them.
-
-    Raises:
-        SphearError: a gap or a solid is too thin, or particles stand in a wall.
-    """
-    if problem.shape is not None:
-        check_room(problem.shape, problem.spacing, supports * kernel.radius, problem.window, kernel.radius)
-        check_shape(problem)
+def region_of(problem: Problem) -> Shape | None:
+    """The region of fluid in all periods; None where its walls are those of the box alone."""
+    return None if problem.shape is None else repeated(problem.shape, problem.window)
 
 
-def gone_through(problem: Problem, positions: Array) -> int:
+def gone_through(region: Shape | None, problem: Problem, positions: Array) -> int:
     """The particle that has gone furthest through a wall of the region, -1 if none has.
 
     Args:
+        region: of fluid; None where no other walls than those of the box are.
         problem: the flow.
         positions: (N, d).
     """
-    if problem.shape is None:
+    if region is None:
         return -1
-    distance = repeated(problem.shape, problem.window).distance(problem.window.wrapped(positions))
+    distance = region.distance(problem.window.wrapped(positions))
     worst = int(np.argmin(distance))
     return worst if distance[worst] < -THROUGH * problem.spacing else -1

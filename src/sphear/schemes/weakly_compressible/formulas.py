@@ -8,6 +8,7 @@ from typing import Any
 from sphear.boundaries.models import ExplicitWallModel
 from sphear.corrections import Correction, NoCorrection
 from sphear.engine.formula import Interaction
+from sphear.engine.preparation import Preparation
 from sphear.engine.stages import PointFormula
 from sphear.equations_of_state import EQUATIONS_OF_STATE, EquationOfState, IdealGas, Linear
 from sphear.interactions import (
@@ -29,7 +30,7 @@ from sphear.interactions import (
 from sphear.kernels import Kernel
 from sphear.operators.arguments import read_correction
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 from sphear.viscosity.base import ViscousTerm
 
 
@@ -53,12 +54,12 @@ class Formulas:
     walls: ExplicitWallModel | None
     before_wall: Interaction | None
     at_wall: PointFormula | None
-    preparations: tuple[tuple[str, Any], ...]
+    preparations: tuple[tuple[str, Preparation], ...]
     stages: tuple[Interaction, ...]
     rates: Rates
 
 
-def formulas(
+def formulas_of(
     settings: WeaklyCompressible,
     problem: Problem,
     term: ViscousTerm,
@@ -96,7 +97,7 @@ def formulas(
         walls=walls,
         before_wall=None if walls is None else walls.before_wall(kernel),
         at_wall=None if walls is None else walls.at_wall(state, with_density=not summed),
-        preparations=tuple((name, found) for name, found in preparations if found is not None),
+        preparations=tuple((name, preparation) for name, preparation in preparations if preparation is not None),
         stages=(*before, rates),
         rates=rates,
     )

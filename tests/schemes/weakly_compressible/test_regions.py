@@ -11,9 +11,9 @@ import pytest
 import sphear
 from sphear.boundaries import Box
 from sphear.boundaries.shapes import Rectangle
-from sphear.schemes.flow import Flow
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 from sphear.simulation.whole_flow import kinetic_energy
 
 INNER, OUTER, SPIN = 0.5, 1.0, 1.0
@@ -44,14 +44,14 @@ def test_the_flow_between_circles_of_which_the_inner_turns_is_couettes(walls: st
     assert np.abs((x * velocities).sum(axis=1) / r).max() < 0.02 * SPIN
 
 
-def in_a_square(shape: Rectangle | None, **changes: Any) -> Flow:
+def in_a_square(shape: Rectangle | None, **changes: Any) -> WeaklyCompressibleFlow:
     """A lid over a unit square, Re = 100, as a box or as a shape in one."""
     n = 16
     ticks = (np.arange(n) + 0.5) / n
     x = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 2)
     box = Box((0.0, 0.0), (1.0, 1.0), ("walls", "walls"), upper_velocity=(1.0, 0.0))
     problem = Problem(x, np.zeros_like(x), box, (0.0, 0.0), 1 / n, 1.0, 0.01, 1.0, 1.0, shape=shape)
-    return Flow(problem, WeaklyCompressible(threads=1, **changes))
+    return WeaklyCompressibleFlow(problem, WeaklyCompressible(threads=1, **changes))
 
 
 SQUARE = Rectangle((0.0, 0.0), (1.0, 1.0), velocities={"upper": (1.0, 0.0)})

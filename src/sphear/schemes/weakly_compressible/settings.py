@@ -13,7 +13,6 @@ from sphear.equations_of_state import Barotropic, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.common import OPEN, RunSettings, Scheme
 from sphear.schemes.flat_settings import FlatSetting
-from sphear.schemes.integrators import INTEGRATORS, Integrator
 from sphear.schemes.objects import (
     CorrectionSetting,
     EquationSetting,
@@ -23,6 +22,7 @@ from sphear.schemes.objects import (
     Term,
     text,
 )
+from sphear.schemes.weakly_compressible.integrators import INTEGRATORS, Integrator
 from sphear.shifting import Lind
 
 DIFFUSION = 0.1  # delta
@@ -124,8 +124,8 @@ class WeaklyCompressible(Scheme):
     @property
     def wall_model(self) -> ExplicitWallModel:
         """The wall model, with its continuation, divergence and particles on walls."""
-        found: ExplicitWallModel = self._object("walls")
-        return found
+        model: ExplicitWallModel = self._object("walls")
+        return model
 
     @property
     def time_integrator(self) -> Integrator:
@@ -135,8 +135,8 @@ class WeaklyCompressible(Scheme):
     @property
     def _walls(self) -> ExplicitWallModel:
         """The wall model as it is without flat settings: its class decides on the defaults beside it."""
-        found: Any = WALL_MODELS[self.walls] if isinstance(self.walls, str) else self.walls
-        walls: ExplicitWallModel = found
+        given: Any = WALL_MODELS[self.walls] if isinstance(self.walls, str) else self.walls
+        walls: ExplicitWallModel = given
         return walls
 
     @property
@@ -227,7 +227,7 @@ def _foreign(walls: ExplicitWallModel) -> bool:
     return any(field.name in walls.foreign and getattr(walls, field.name) != field.default for field in fields(walls))
 
 
-class FlowSettings(RunSettings, WeaklyCompressible):
+class WeaklyCompressibleSettings(RunSettings, WeaklyCompressible):
     """The settings of a case by the explicit scheme.
 
     Attributes, beside those of `RunSettings` and `WeaklyCompressible`:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 
 Array = np.ndarray[Any, Any]
 GAMMA = 1.4
@@ -72,7 +72,7 @@ class Plain:
     """A flow; all its numbers are those of the settings, which must give them."""
 
     problem: Problem
-    settings: FlowSettings
+    settings: WeaklyCompressibleSettings
 
     @property
     def dx(self) -> float:

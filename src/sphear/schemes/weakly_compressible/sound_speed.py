@@ -5,7 +5,7 @@ from __future__ import annotations
 from sphear.equations_of_state import Barotropic, EquationOfState, IdealGas
 from sphear.errors import SphearError
 from sphear.schemes.problem import Problem, corner_sound_speed, morris_sound_speed
-from sphear.schemes.settings import WeaklyCompressible
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressible
 
 
 def sound_speed(problem: Problem, settings: WeaklyCompressible) -> float:

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from sphear.boundaries import Box
-from sphear.schemes.flow import Flow
 from sphear.schemes.presets import PRESETS
 from sphear.schemes.problem import Problem
-from sphear.schemes.settings import FlowSettings
+from sphear.schemes.weakly_compressible.flow import WeaklyCompressibleFlow
+from sphear.schemes.weakly_compressible.settings import WeaklyCompressibleSettings
 from tests.particles import jittered
-from tests.schemes.plain import Array, Plain
+from tests.schemes.weakly_compressible.plain import Array, Plain
 
 COUNT, LID = 8, 0.7
 FORCE = (3.0, -2.0)
@@ -60,7 +60,7 @@ COMBINATIONS: list[tuple[str, dict[str, Any]]] = [
 ]
 
 
-def settings(names: str, changes: dict[str, Any]) -> FlowSettings:
+def settings(names: str, changes: dict[str, Any]) -> WeaklyCompressibleSettings:
     viscosity, correction, state, density = names.split()
     others = {name: value for name, value in changes.items() if name != "cavity"}
     chosen = {
@@ -68,7 +68,7 @@ def settings(names: str, changes: dict[str, Any]) -> FlowSettings:
         "h_over_dx": 1.57, "time_step": 0.002, "sound_speed": None if state == "gas" else 12.0,
         "initial_pressure": 20.0, "resolution": COUNT, "shifting_strength": 0.6, "background_pressure": 0.3,
     }  # fmt: skip
-    return FlowSettings.model_validate({**PRESETS["basa2009"], **chosen, **others})
+    return WeaklyCompressibleSettings.model_validate({**PRESETS["basa2009"], **chosen, **others})
 
 
 def problem(cavity: bool) -> Problem:
@@ -98,7 +98,7 @@ def close(found: Array, expected: Array) -> None:
 def test_steps(names: str, changes: dict[str, Any]) -> None:
     """One step of the midpoint rule; two where the rates or the drift of the step before matter."""
     chosen, start = settings(names, changes), problem(changes.get("cavity", False))
-    flow, plain = Flow(start, chosen), Plain(start, chosen)
+    flow, plain = WeaklyCompressibleFlow(start, chosen), Plain(start, chosen)
     steps = 1 if chosen.integrator == "midpoint" and chosen.transport == "none" else 2
     generator = np.random.default_rng(2)
     state = {name: values.copy() for name, values in flow.state().items()}

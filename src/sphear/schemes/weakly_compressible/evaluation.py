@@ -14,9 +14,9 @@ from sphear.engine.stages import (
     Rows,
     Stage,
 )
-from sphear.schemes.columns import without_standing_mass
-from sphear.schemes.formulas import Formulas
-from sphear.schemes.point_formulas import Pressure, Rates, SummedDensity
+from sphear.schemes.weakly_compressible.columns import without_standing_mass
+from sphear.schemes.weakly_compressible.formulas import Formulas
+from sphear.schemes.weakly_compressible.point_formulas import Pressure, Rates, SummedDensity
 
 
 def integrated_walls(formulas: Formulas) -> bool:

@@ -1,0 +1,1 @@
+"""The weakly compressible scheme: formulas and stages of its explicit steps."""
