@@ -120,6 +120,14 @@ def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyp
 
 
 @compiled
+def copy_columns(values, column, target, out):  # type: ignore[no-untyped-def]  # pragma: no cover
+    """Write columns of values (M, m), as many as `out` has and from `column` on, to the rows `target` (M,) of it."""
+    for row in range(len(values)):
+        for k in range(out.shape[1]):
+            out[target[row], k] = values[row, column + k]
+
+
+@compiled
 def _pack_positions(records, coordinates, middle):  # type: ignore[no-untyped-def]  # pragma: no cover
     for axis in range(len(coordinates)):
         origin = coordinates[axis, middle]

@@ -14,6 +14,7 @@ from numba.extending import intrinsic
 
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Shape, TracedFormula
+from sphear.engine.kept_records import Records
 from sphear.engine.lanes import INT64, Lanes, as_lanes
 from sphear.engine.program import weights_text
 from sphear.engine.sweep import FAR, Sweep
@@ -90,6 +91,7 @@ def pair_weights(
     *,
     own: tuple[Shape, ...] = (),
     prepared: Sequence[Array] = (),
+    packing: Records | None = None,
 ) -> Array:
     """The weights of all pairs, (components, pairs), in the order of the chunks of the pair list.
 
@@ -99,8 +101,9 @@ def pair_weights(
         fields: arrays (N,) or (N, k), by name.
         own: structure of the prepared coefficients.
         prepared: their numbers, one array (rows, m) a chunk.
+        packing: keeps what stays from sweep to sweep; None packs all anew.
     """
-    weights = PairWeights(interaction, neighbours, fields, own)
+    weights = PairWeights(interaction, neighbours, fields, own, packing=packing)
     numbered = list(enumerate(neighbours.chunks))
     parts = on_threads(
         lambda item: weights.of(item[1], prepared[item[0]] if prepared else None), numbered, neighbours.threads

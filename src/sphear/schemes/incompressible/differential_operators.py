@@ -9,7 +9,7 @@ import numpy as np
 
 from sphear.corrections import NoCorrection
 from sphear.interactions import Gradient
-from sphear.interactions.free_surface import Concentration
+from sphear.interactions.concentration import Concentration
 from sphear.interactions.pressure_gradient import SymmetricGradient
 from sphear.interactions.sfdi_gradient import SfdiFit, SfdiGradient
 from sphear.schemes.incompressible.free_surface import surface
@@ -135,5 +135,7 @@ class DifferentialOperators:
 
     def concentration(self) -> Array:
         """(N,), the density of particles over that of a lattice."""
+        if self.surface is not None:
+            return self.surface.concentration
         result: Array = self.particles.sum(Concentration(self.how.kernel))[:, 0] / self.how.lattice_sum
         return result
