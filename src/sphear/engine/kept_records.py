@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from sphear.engine.records import empty_records, pack, pack_positions
+from sphear.engine.records import empty_records, pack, pack_positions, record_width
 from sphear.engine.threads import on_threads
 
 if TYPE_CHECKING:
@@ -56,9 +56,9 @@ class Records:
         stay = 0
         while stay < len(columns) and fields[columns[stay][0]] is self.lasting.get(columns[stay][0]):
             stay += 1
-        key = columns[:stay], len(columns), with_position
         neighbours = self.neighbours
         begin = neighbours.dimension if with_position else 0
+        key = columns[:stay], record_width(begin + len(columns)), with_position
         records = self._kept.get(key)
         if records is None:
             records = empty_records(len(neighbours.source), begin + len(columns), self.dtype)

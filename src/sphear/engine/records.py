@@ -135,9 +135,14 @@ def _pack_positions(records, coordinates, middle):  # type: ignore[no-untyped-de
             records[entry, axis] = coordinates[axis, entry] - origin
 
 
+def record_width(columns: int) -> int:
+    """Columns rounded up to whole chunks."""
+    return -(-columns // CHUNK) * CHUNK
+
+
 def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any]:
     """Uninitialised records, (entries, columns rounded up to whole chunks), aligned to cache lines."""
-    columns = -(-columns // CHUNK) * CHUNK
+    columns = record_width(columns)
     if not columns:
         return np.empty((entries, 0), dtype)
     item = np.dtype(dtype).itemsize
