@@ -22,7 +22,7 @@ from _bench import Report, best_of, clocked
 from _case import Case
 
 from sphear import CubicSpline
-from sphear.neighbours.cells import cell_sort
+from sphear.neighbours.cell_sort import cell_sort
 
 FIRST_SEARCH = f"""
 import sys, time

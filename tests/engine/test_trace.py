@@ -12,7 +12,7 @@ import pytest
 
 from sphear import CORRECTIONS, KERNELS, VISCOSITY, Cleary, CubicSpline, Kernel, WendlandC2, algebra
 from sphear.corrections.renormalised import safe_inverse
-from sphear.engine.formula import Sum, traced
+from sphear.engine.formula import Sum, Weights, traced
 from sphear.engine.preparation import form_of
 from sphear.engine.structure import fill, kind, leaves, parameters, with_symbols
 from sphear.engine.trace import Symbol, Trace
@@ -61,7 +61,7 @@ def test_traced_code_gives_what_the_formula_gives(trace: Trace, name: str, value
 
 
 @dataclass(frozen=True)
-class AllOfAKernel(Sum):
+class AllOfAKernel(Weights):
     kernel: Kernel
 
     def pair(self, own: Any, other: Any, d: Any, r2: Any) -> Any:

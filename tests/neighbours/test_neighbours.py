@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from sphear import Domain, Neighbours, SphearError
-from sphear.neighbours.cells import cell_sort
+from sphear.neighbours.cell_sort import cell_sort
 from tests.particles import Array, jittered, lattice
 
 SUPPORT = 1.3
@@ -202,3 +202,12 @@ def test_a_domain_takes_any_sequence_and_compares_by_value() -> None:
     assert hash(domain) == hash(Domain((0.0, 0.0), (1.0, 2.0), (True, False)))
     assert Domain((0.0, 0.0), (1.0, 2.0), np.True_).periodic_axes == (0, 1)  # type: ignore[arg-type]
     assert (domain.dimension, domain.periodic_axes) == (2, (0,))
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_entries_are_sorted_in_the_same_order_on_any_number_of_threads(threads: int) -> None:
+    positions = np.random.default_rng(5).uniform(size=(13_000, 2))
+    alone, shared = cell_sort(positions, 0.03), cell_sort(positions, 0.03, threads)
+    for name in ("coordinates", "order", "cell", "start", "rows"):
+        np.testing.assert_array_equal(getattr(shared, name), getattr(alone, name))
+    assert (np.diff(alone.order[: alone.start[-1]][alone.cell == alone.cell[0]]) > 0).all()

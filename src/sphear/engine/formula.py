@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from itertools import count
@@ -38,6 +38,7 @@ class TracedFormula:
 
     `columns` are the fields and components that a particle's record holds for its neighbours, (field, component), after
     the position; `private` are those that it alone needs, kept apart so that neighbours do not load them.
+    `pair_outputs` are what is summed up, equal and opposite numbers once; of weights all.
     `reverse_outputs` are what the pair contributes to the sum of `other`, where both sides of it are wanted.
     `own_names` and `own_columns` are the used columns of what was prepared for the particle.
     """
@@ -79,11 +80,14 @@ def _traced(
     other = SimpleNamespace(**(known | values("other", shared)))
     r2 = trace.input("r2")
     total = formula.pair(own, other, d, r2)
-    pair_outputs = list(leaves(total))
+    given = list(leaves(total))
     reverse_outputs = list(leaves(formula.pair(other, own, scale(-1.0, d), r2))) if both_sides else []
+    kept = both_sides or isinstance(formula, Weights)
+    pair_outputs = given if kept else _different(given)
     pair_lines, pair_inputs = trace.code(pair_outputs + reverse_outputs)
 
-    sums = fill(total, (trace.input(f"total{k}") for k in count()))
+    totals = [trace.input(f"total{k}") for k in range(len(pair_outputs))]
+    sums = fill(total, iter(totals) if kept else _totals(given, pair_outputs, totals))
     result = formula.finish(own, sums)
     finish_outputs = list(leaves(result))
     finish_lines, finish_inputs = trace.code(finish_outputs)
@@ -116,6 +120,31 @@ def _whole_runs(
     """The used components of each field and those between them, so that a field is packed by one copy."""
     bounds = {name: [k for n, k in used if n == name] for name, _ in used}
     return [(n, k) for n, k in cells if n in bounds and bounds[n][0] <= k <= bounds[n][-1] and (n, k) not in taken]
+
+
+def _unsigned(value: Any) -> str:
+    return value.name if isinstance(value, Symbol) else repr(abs(float(value)))
+
+
+def _different(outputs: list[Any]) -> list[Any]:
+    """Of equal and opposite outputs the first, and none that is always zero: what is to be summed up."""
+    found: dict[str, Any] = {}
+    for x in outputs:
+        if isinstance(x, Symbol) or x != 0.0:
+            found.setdefault(_unsigned(x), x)
+    return list(found.values())
+
+
+def _totals(outputs: list[Any], summed: list[Any], totals: list[Symbol]) -> Iterator[Any]:
+    """The sum of each output, from the `totals` of those that are summed up."""
+    place = {_unsigned(x): (_negative(x), total) for x, total in zip(summed, totals, strict=True)}
+    for x in outputs:
+        negative, total = place.get(_unsigned(x), (_negative(x), 0.0))
+        yield total if negative == _negative(x) else -total
+
+
+def _negative(value: Any) -> bool:
+    return value.negative if isinstance(value, Symbol) else value < 0.0
 
 
 class _Unhashed:

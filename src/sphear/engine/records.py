@@ -120,6 +120,14 @@ def _pack(records, column, values, source, begin, end):  # type: ignore[no-untyp
 
 
 @compiled
+def copy_columns(values, column, target, out):  # type: ignore[no-untyped-def]  # pragma: no cover
+    """Write columns of values (M, m), as many as `out` has and from `column` on, to the rows `target` (M,) of it."""
+    for row in range(len(values)):
+        for k in range(out.shape[1]):
+            out[target[row], k] = values[row, column + k]
+
+
+@compiled
 def _pack_positions(records, coordinates, middle):  # type: ignore[no-untyped-def]  # pragma: no cover
     for axis in range(len(coordinates)):
         origin = coordinates[axis, middle]
@@ -127,9 +135,14 @@ def _pack_positions(records, coordinates, middle):  # type: ignore[no-untyped-de
             records[entry, axis] = coordinates[axis, entry] - origin
 
 
+def record_width(columns: int) -> int:
+    """Columns rounded up to whole chunks."""
+    return -(-columns // CHUNK) * CHUNK
+
+
 def empty_records(entries: int, columns: int, dtype: str) -> np.ndarray[Any, Any]:
     """Uninitialised records, (entries, columns rounded up to whole chunks), aligned to cache lines."""
-    columns = -(-columns // CHUNK) * CHUNK
+    columns = record_width(columns)
     if not columns:
         return np.empty((entries, 0), dtype)
     item = np.dtype(dtype).itemsize

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from itertools import groupby
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +11,9 @@ import numpy as np
 
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Interaction, Shape, TracedFormula, traced
+from sphear.engine.kept_records import Fields, Records
 from sphear.engine.program import sweep_text
-from sphear.engine.records import empty_records, pack, pack_positions
+from sphear.engine.records import empty_records
 from sphear.engine.structure import parameters
 from sphear.engine.threads import on_threads
 
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from sphear.neighbours import Chunk, Neighbours
 
 Array = np.ndarray[Any, Any]
-Fields = Mapping[str, Array]
 
 FAR = 1.001  # supports: where lanes without a neighbour are put
 
@@ -41,19 +39,6 @@ def _ready(
     return formula, np.array(parameters(interaction) or [0.0], dtype)
 
 
-@lru_cache(maxsize=512)
-def _runs(columns: tuple[tuple[str, int], ...]) -> list[tuple[str, int, int, int]]:
-    """Columns of one field with components that follow each other: field, components from and to, first column.
-
-    One copy packs a run.
-    """
-    runs = []
-    for (name, _), run in groupby(enumerate(columns), key=lambda cell: (cell[1][0], cell[1][1] - cell[0])):
-        cells = [(column, component) for column, (_, component) in run]
-        runs.append((name, cells[0][1], cells[-1][1] + 1, cells[0][0]))
-    return runs
-
-
 def shape_of(values: Array) -> Any:
     """The structure of one particle's value: 0.0 for an array (N,), a tuple of zeros for (N, k)."""
     return 0.0 if values.ndim == 1 else (0.0,) * values.shape[1]
@@ -70,6 +55,7 @@ class Sweep:
         own: structure of the prepared coefficients, by name; their arrays are given chunk by chunk.
         each_pair_once: compute both sides of a pair together; not with prepared coefficients, which are of one side.
         dtype: "float64" or "float32": what the sums are computed in.
+        packing: keeps what stays from sweep to sweep, in numbers of the same dtype; None packs all anew.
     """
 
     interaction: Interaction
@@ -78,6 +64,7 @@ class Sweep:
     own: tuple[Shape, ...] = ()
     each_pair_once: bool = False
     dtype: str = "float64"
+    packing: Records | None = None
 
     def __post_init__(self) -> None:
         shared = tuple((name, shape_of(values)) for name, values in self.fields.items())
@@ -87,25 +74,13 @@ class Sweep:
             interaction, dimension, shared, self.own, self.each_pair_once, self.dtype
         )
         self.module = self._module()
-        self.records = self._packed(self.formula.columns, with_position=True)
-        self.private = self._packed(self.formula.private)
+        packing = Records(self.neighbours, {}, self.dtype) if self.packing is None else self.packing
+        self.records = packing.packed(self.formula.columns, self.fields, with_position=True)
+        self.private = packing.packed(self.formula.private, self.fields)
 
     def _module(self) -> ModuleType:
         """The compiled code."""
         return _compiled(self.formula, type(self.interaction).__name__, self.neighbours.dimension, self.dtype)
-
-    def _packed(self, columns: tuple[tuple[str, int], ...], with_position: bool = False) -> Array:
-        """The columns, (field, component), of each entry side by side, (entries, columns)."""
-        neighbours = self.neighbours
-        dimension = neighbours.dimension if with_position else 0
-        records = empty_records(len(neighbours.source), dimension + len(columns), self.dtype)
-        if with_position:
-            pack_positions(records, neighbours.coordinates)
-        for name, first, last, column in _runs(columns):
-            values = self.fields[name]
-            values = values.reshape(len(values), -1)
-            pack(records, dimension + column, values[:, first:last], neighbours.source)
-        return records
 
     @property
     def outputs(self) -> int:

@@ -14,6 +14,7 @@ from numba.extending import intrinsic
 
 from sphear.engine.cache import generated_module
 from sphear.engine.formula import Shape, TracedFormula
+from sphear.engine.kept_records import Records
 from sphear.engine.lanes import INT64, Lanes, as_lanes
 from sphear.engine.program import weights_text
 from sphear.engine.sweep import FAR, Sweep
@@ -90,9 +91,10 @@ def pair_weights(
     *,
     own: tuple[Shape, ...] = (),
     prepared: Sequence[Array] = (),
+    packing: Records | None = None,
 ) -> Array:
     """The weights of all pairs, (components, pairs), in the order of the chunks: see `chunk_weights`."""
-    parts = chunk_weights(interaction, neighbours, fields, own=own, prepared=prepared)
+    parts = chunk_weights(interaction, neighbours, fields, own=own, prepared=prepared, packing=packing)
     return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
 
 
@@ -103,6 +105,7 @@ def chunk_weights(
     *,
     own: tuple[Shape, ...] = (),
     prepared: Sequence[Array] = (),
+    packing: Records | None = None,
 ) -> list[Array]:
     """The weights of the pairs of each chunk of the pair list, (components, pairs).
 
@@ -112,8 +115,9 @@ def chunk_weights(
         fields: arrays (N,) or (N, k), by name.
         own: structure of the prepared coefficients.
         prepared: their numbers, one array (rows, m) a chunk.
+        packing: keeps what stays from sweep to sweep; None packs all anew.
     """
-    weights = PairWeights(interaction, neighbours, fields, own)
+    weights = PairWeights(interaction, neighbours, fields, own, packing=packing)
     numbered = list(enumerate(neighbours.chunks))
     return on_threads(
         lambda item: weights.of(item[1], prepared[item[0]] if prepared else None), numbered, neighbours.threads

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Concentration:
+class ConcentrationMoments:
     """sum_j V_j W_ij, the particle itself included, sum_j V_j grad W_ij and sum_j V_j grad W_ij (x) (r_j - r_i).
 
     The first is about 1 inside, the second vanishes there and points into the fluid elsewhere, the third is about the

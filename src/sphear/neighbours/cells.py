@@ -1,38 +1,14 @@
-"""The cell sort: entries (particles and their periodic images) ordered by the cell of a background grid."""
+"""Cells of a background grid, and entries (particles and their periodic images) put into their order."""
 
 from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from sphear.engine.cache import compiled
 
-Array = np.ndarray[Any, Any]
-
 REACH = 2  # cells of half a support: fewer candidates than whole ones, see benchmarks/lanes.py
 FARTHEST = 1e15  # cells: beyond, neighbouring floating-point numbers are no neighbours
 PADDING = 8  # room behind the last entry, so that eight candidates can always be read at once
-
-
-@dataclass(frozen=True)
-class CellSort:
-    """Entries in the order of their cells.
-
-    Attributes:
-        coordinates: (d, E + 8), one row an axis, in the order of the cells.
-        order: (E,), the entry of the input that each one is.
-        cell: (E,), its cell.
-        start: (cells + 1,), the first entry of each cell.
-        rows: offsets to the rows of cells within reach of a cell; a row runs from cell - REACH to cell + REACH.
-    """
-
-    coordinates: Array
-    order: Array
-    cell: Array
-    start: Array
-    rows: Array
 
 
 @compiled
@@ -106,6 +82,70 @@ def fill_offsets(counts, offsets):  # type: ignore[no-untyped-def]
 
 
 @compiled
+def number_cells(  # type: ignore[no-untyped-def]
+    positions, begin, end, lower, extent, inverse, counts, unsorted, found
+):
+    """Write the cell of each of the entries begin ... end to `unsorted`, and how many are in each cell to `found`."""
+    dimension = positions.shape[1]
+    # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
+    strides = np.ones(dimension, np.int64)  # the first axis runs fastest
+    cells, border = np.int64(1), np.int64(0)
+    for axis in range(dimension):
+        strides[axis] = cells
+        border += REACH * cells
+        cells = cells * (counts[axis] + 2 * REACH)
+    folded = np.empty(dimension, np.bool_)
+    for axis in range(dimension):
+        folded[axis] = extent[axis] * inverse >= counts[axis]
+
+    for number_of_cell in range(cells):
+        found[number_of_cell] = 0
+    for entry in range(begin, end):
+        number = border
+        for axis in range(dimension):
+            along = (positions[entry, axis] - lower[axis]) * inverse
+            if folded[axis]:
+                number += fold(along, counts[axis]) * strides[axis]
+            else:
+                number += np.int64(along) * strides[axis]
+        unsorted[entry] = number
+        found[number] += 1
+
+
+@compiled
+def first_places(found, start):  # type: ignore[no-untyped-def]
+    """Write the first entry of each cell to `start`; in place of how many a part has `found` in it, its first there.
+
+    Args:
+        found: (parts, cells), of parts whose entries follow each other.
+        start: (cells + 1,).
+    """
+    place = np.int64(0)
+    for number_of_cell in range(found.shape[1]):
+        start[number_of_cell] = place
+        for part in range(len(found)):
+            number = found[part, number_of_cell]
+            found[part, number_of_cell] = place
+            place += number
+    start[found.shape[1]] = place
+
+
+@compiled
+def place_entries(  # type: ignore[no-untyped-def]
+    positions, begin, end, unsorted, following, coordinates, order, cell
+):
+    """Put the entries begin ... end where they are sorted to: each cell's next place is `following`."""
+    dimension = positions.shape[1]
+    for entry in range(begin, end):
+        place = following[unsorted[entry]]
+        following[unsorted[entry]] += 1
+        order[place] = entry
+        cell[place] = unsorted[entry]
+        for axis in range(dimension):
+            coordinates[axis, place] = positions[entry, axis]
+
+
+@compiled
 def fill_cells(  # type: ignore[no-untyped-def]
     positions, lower, extent, inverse, counts, coordinates, order, cell, start, unsorted, following
 ):
@@ -121,50 +161,18 @@ def fill_cells(  # type: ignore[no-untyped-def]
         unsorted: (E,), written over.
         following: (cells,), written over.
     """
-    entries, dimension = positions.shape
-    # an empty border of REACH cells on each side: rows of neighbouring cells never leave the grid
-    strides = np.ones(dimension, np.int64)  # the first axis runs fastest
-    cells, border = np.int64(1), np.int64(0)
-    for axis in range(dimension):
-        strides[axis] = cells
-        border += REACH * cells
-        cells = cells * (counts[axis] + 2 * REACH)
-    folded = np.empty(dimension, np.bool_)
-    for axis in range(dimension):
-        folded[axis] = extent[axis] * inverse >= counts[axis]
-
-    for number_of_cell in range(cells + 1):
-        start[number_of_cell] = 0
-    for entry in range(entries):
-        number = border
-        for axis in range(dimension):
-            along = (positions[entry, axis] - lower[axis]) * inverse
-            if folded[axis]:
-                number += fold(along, counts[axis]) * strides[axis]
-            else:
-                number += np.int64(along) * strides[axis]
-        unsorted[entry] = number
-        start[number + 1] += 1
-    for number_before in range(cells):
-        start[number_before + 1] += start[number_before]
-
-    for number_of_cell in range(cells):
-        following[number_of_cell] = start[number_of_cell]
-    for entry in range(entries):
-        place = following[unsorted[entry]]
-        following[unsorted[entry]] += 1
-        order[place] = entry
-        cell[place] = unsorted[entry]
-        for axis in range(dimension):
-            coordinates[axis, place] = positions[entry, axis]
-    for axis in range(dimension):
+    entries = len(positions)
+    number_cells(positions, 0, entries, lower, extent, inverse, counts, unsorted, following)
+    first_places(following.reshape((1, len(following))), start)
+    place_entries(positions, 0, entries, unsorted, following, coordinates, order, cell)
+    for axis in range(positions.shape[1]):
         for place in range(entries, entries + PADDING):
             coordinates[axis, place] = np.inf
 
 
 @compiled
 def sorted_cells(positions, support):  # type: ignore[no-untyped-def]
-    """The attributes of `CellSort` for positions (E, d), in their order."""
+    """The attributes of a `CellSort` for positions (E, d), in their order."""
     entries, dimension = positions.shape
     lower, extent, inverse, counts = grid(positions, support)
     cells = cell_total(counts)
@@ -193,8 +201,3 @@ def point_cells(points, positions, support):  # type: ignore[no-untyped-def]
             stride *= counts[axis] + 2 * REACH
         cell[point] = number
     return cell
-
-
-def cell_sort(positions: Array, support: float) -> CellSort:
-    """Sort positions (E, d) into cells of half a support."""
-    return CellSort(*sorted_cells(positions, support))

@@ -12,7 +12,8 @@ import numpy as np
 
 from sphear.engine.threads import on_threads, thread_count
 from sphear.errors import SphearError
-from sphear.neighbours.cells import PADDING, REACH, cell_sort, point_cells
+from sphear.neighbours.cell_sort import cell_sort
+from sphear.neighbours.cells import PADDING, REACH, point_cells
 from sphear.neighbours.domain import Domain
 from sphear.neighbours.limits import refuse_pairs
 from sphear.neighbours.pair_list import Chunk, build_chunk, list_capacity
@@ -85,7 +86,7 @@ class Neighbours:
         entries, source = domain.with_images(positions, self.support) if domain else (positions, None)
         self._keep_coincident = keep_coincident or at is not None
         entries = np.ascontiguousarray(entries, np.float64)
-        self._cells = cells = cell_sort(entries, self.support)
+        self._cells = cells = cell_sort(entries, self.support, self.threads)
         self.coordinates = cells.coordinates
         self.source = cells.order if source is None else source[cells.order]
         self._image = np.zeros(len(cells.order) + PADDING, np.bool_)

@@ -12,7 +12,8 @@ import numpy as np
 from sphear.engine.cache import generated_module
 from sphear.engine.flags import options_text
 from sphear.engine.selection import selection_table
-from sphear.neighbours.cells import REACH, CellSort
+from sphear.neighbours.cell_sort import CellSort
+from sphear.neighbours.cells import REACH
 
 Array = np.ndarray[Any, Any]
 

@@ -67,11 +67,13 @@ class EnergyBudget:
             before, after: (N, d), velocities at its ends.
             viscous, force: (N, d), accelerations.
         """
-        momentum = 0.5 * step * self.mass * (before + after)
+        from sphear.schemes.work import work  # takes the compiler, which who only asks for speeds does without
+
+        share = 0.5 * step * self.mass
         for name, acceleration in (("viscous", viscous), ("force", force)):
-            work = np.einsum("nd,nd->n", momentum, np.broadcast_to(acceleration, momentum.shape))
-            setattr(self, name, getattr(self, name) + float(work.sum()))
-            self.turned += float(np.abs(work).sum())
+            done, turned = work(before, after, np.atleast_2d(acceleration))
+            setattr(self, name, getattr(self, name) + share * done)
+            self.turned += share * turned
         kinetic = self.kinetic(after)
         self.largest = max(self.largest, kinetic)
         self.least = min(self.least, self._left(kinetic))

@@ -42,4 +42,4 @@ def test_a_parallel_flow_keeps_its_lattice_rows() -> None:
      ([[0.0, 2.0], [2.0, 0.0]], 2.0)],
 )  # fmt: skip
 def test_strain_stretches_and_shear_and_rotation_do_not(slopes: list[list[float]], rate: float) -> None:
-    assert stretching(np.array([slopes]), 1e-9) == pytest.approx([rate])
+    assert stretching(np.array([slopes]).reshape(1, -1), 2, 1e-9) == pytest.approx([rate])

@@ -13,6 +13,7 @@ from sphear.schemes.incompressible import viscous
 from sphear.schemes.incompressible.block_preconditioner import BlockPreconditioner
 from sphear.schemes.incompressible.differential_operators import DifferentialOperators
 from sphear.schemes.incompressible.pressure_equation import PressureEquation
+from sphear.schemes.incompressible.slopes import squared_traces
 
 if TYPE_CHECKING:
     from sphear.schemes.incompressible.coupled import Coupled
@@ -65,9 +66,8 @@ class CoupledStep:
         self.still = operators.divergent(np.zeros_like(u))
         self.source = solver.relief * pressures.crowding(operators)
         if step.moved:
-            d = u.shape[1]
-            slopes = operators.slopes(self.start).reshape(-1, d, d)
-            self.source = self.source + step.moved * np.einsum("nab,nba->n", slopes, slopes)
+            slopes = operators.slopes(self.start)
+            self.source = self.source + step.moved * squared_traces(slopes, u.shape[1])
 
     def solve(self) -> tuple[Array, Array]:
         """Velocities (N, d) and the gradient (N, d) of the pressure, which is kept.

@@ -9,12 +9,13 @@ import numpy as np
 
 from sphear.corrections import NoCorrection
 from sphear.interactions import Gradient
-from sphear.interactions.free_surface import Concentration
+from sphear.interactions.concentration import Concentration
 from sphear.interactions.pressure_gradient import SymmetricGradient
 from sphear.interactions.sfdi_gradient import SfdiFit, SfdiGradient
 from sphear.schemes.incompressible.free_surface import surface
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.pressure_level import levelled
+from sphear.schemes.incompressible.slopes import squared_traces, traces
 from sphear.schemes.incompressible.surface_pressure import surface_gradient
 
 if TYPE_CHECKING:
@@ -64,12 +65,9 @@ class DifferentialOperators:
         """
         d = velocities.shape[1]
         slopes = self.slopes(velocities)
-        result: Array = slopes[:, 0].copy()  # axis by axis: NumPy is slow along short ones
-        for axis in range(1, d):
-            result += slopes[:, axis * (d + 1)]
+        result = traces(slopes, d)
         if later:
-            whole = slopes.reshape(-1, d, d)
-            result -= later * np.einsum("nab,nba->n", whole, whole)
+            result -= later * squared_traces(slopes, d)
         return result
 
     def pressure_gradient(self, pressures: Array) -> Array:
@@ -137,5 +135,7 @@ class DifferentialOperators:
 
     def concentration(self) -> Array:
         """(N,), the density of particles over that of a lattice."""
+        if self.surface is not None:
+            return self.surface.concentration
         total: Array = self.particles.sum(Concentration(self.discretisation.kernel))[:, 0]
         return total / self.discretisation.lattice_sum

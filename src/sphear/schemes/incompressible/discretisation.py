@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -60,8 +61,14 @@ class Discretisation:
         inside = r2 < self.kernel.radius**2
         return float(np.sum(self.kernel.value(r2[inside], d)) * dx**d)
 
-    def at(self, x: Array, distance: Array | None = None) -> DifferentialOperators:
-        """The operators on particles at x (N, d), so far from walls (N,) if that is known."""
+    def at(self, x: Array, distance: Array | None = None, together: Sequence[Any] = ()) -> DifferentialOperators:
+        """The operators on particles.
+
+        Args:
+            x: (N, d), where they are.
+            distance: (N,), from walls, if that is known.
+            together: sums over places and volumes that will all be asked for, see `ParticleSums`.
+        """
         walls, dx = self.walls, self.problem.spacing
         everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
         volume = np.full(len(everything), dx ** x.shape[1])
@@ -70,7 +77,9 @@ class Discretisation:
             if self.problem.free_surface:
                 fluid = x if self.domain is None else self.domain.with_images(x, walls.reach)[0]
                 volume[self.count :] *= wetted(walls.images, fluid, dx)
-        particles = ParticleSums(everything, self.count, self.kernel, volume, self.domain, self.threads)
+        particles = ParticleSums(
+            everything, self.count, self.kernel, volume, self.domain, self.threads, together=together
+        )
         if walls is not None and self.region is not None and distance is None:
             distance = self.region.distance(x)
         return DifferentialOperators(self, particles, distance)

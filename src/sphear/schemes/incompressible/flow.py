@@ -24,6 +24,7 @@ from sphear.schemes.incompressible.pressures import Pressures
 from sphear.schemes.incompressible.settings import Incompressible
 from sphear.schemes.incompressible.shifting import Displacement
 from sphear.schemes.incompressible.step import step
+from sphear.schemes.incompressible.sums_of_places import sums_of_places
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE, Viscous
 from sphear.schemes.objects import text
 from sphear.schemes.problem import Problem
@@ -62,6 +63,7 @@ class IncompressibleFlow:
         pressure_positions, pressure_slopes: (N, d), where it was found, and its gradient there.
         pressures: it, and how it was solved for.
         discretisation: how fields become operators.
+        together: the sums of a step that are made in one sweep.
         limits: the time steps that the CFL, viscous, body-force and shifting conditions allow.
 
     Raises:
@@ -88,6 +90,7 @@ class IncompressibleFlow:
         self.pressures = Pressures(problem, settings, self.kernel, self.discretisation.walls, self.alpha)
         self.coupled = coupled(problem, settings, self.pressures, self.kernel.h, self.time_step, self.term.radial)
         self.displacement = Displacement(settings.shifting_method, problem, self.kernel, settings.seed)
+        self.together = sums_of_places(self)
         self.x = in_box(np.ascontiguousarray(problem.positions, np.float64), self.discretisation.domain).copy()
         self.u = np.ascontiguousarray(problem.velocities, np.float64).copy()
         self.energy_budget = EnergyBudget(problem.density * problem.spacing ** self.x.shape[1], self.u, problem.speed)

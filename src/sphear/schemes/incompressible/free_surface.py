@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from sphear.corrections import NoCorrection
 from sphear.errors import SphearError
-from sphear.interactions.free_surface import Concentration, NearSurface, Umbrella
+from sphear.interactions.free_surface import ConcentrationMoments, NearSurface, Umbrella
 from sphear.kernels import Kernel
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.settings import Incompressible
@@ -85,7 +85,7 @@ def surface(particles: ParticleSums, spacing: float, lattice_sum: float) -> Surf
         lattice_sum: the concentration of a lattice.
     """
     kernel, count, dimension = particles.kernel, particles.count, particles.positions.shape[1]
-    sums = particles.sum(Concentration(kernel))
+    sums = particles.sum(ConcentrationMoments(kernel))
     total, slope, moment = sums[:, 0], sums[:, 1 : dimension + 1], sums[:, dimension + 1 :]
     moment = moment.reshape(count, dimension, dimension)
     concentration = total / lattice_sum

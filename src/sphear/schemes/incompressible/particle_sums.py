@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from sphear.engine.formula import Interaction, Shape
-from sphear.engine.preparation import Preparation
-from sphear.engine.preparing import PreparationSweep, deficient
+from sphear.engine.kept_records import Records
+from sphear.engine.preparation import NormalEquations, Preparation, form_of
+from sphear.engine.preparing import deficient, solved
+from sphear.engine.records import copy_columns
+from sphear.engine.structure import leaves
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
 from sphear.engine.weights import chunk_weights, pair_weights
+from sphear.interactions.joined import Joined
 from sphear.kernels import Kernel
 from sphear.neighbours import Chunk, Domain, Neighbours
 from sphear.neighbours.sparse import sparse_rows
@@ -46,6 +51,7 @@ class ParticleSums:
         domain: with its periodic axes; None is open space.
         threads: to compute on.
         coincident: whether a particle may lie where one that is only a neighbour does.
+        together: interactions that depend on places and volumes alone: once one is asked for, all are summed.
     """
 
     def __init__(
@@ -57,6 +63,7 @@ class ParticleSums:
         domain: Domain | None,
         threads: int,
         coincident: bool = False,
+        together: Sequence[Any] = (),
     ) -> None:
         self.neighbours = Neighbours(
             positions, kernel.radius, domain, threads=threads, rows=count, keep_coincident=coincident
@@ -66,15 +73,65 @@ class ParticleSums:
         self.positions = positions
         self.kernel = kernel
         self.fields: dict[str, Array] = {"volume": volume}
-        self._prepared: dict[Interaction, Prepared] = {}
+        self._packing = Records(self.neighbours, self.fields)
+        self._together = tuple(dict.fromkeys(together))
+        self._places: dict[Any, tuple[Any, int]] = {}
+        self._blocks: list[Array] = []
+        self._prepared: dict[Any, Prepared] = {}
+        self._sums: dict[Any, Array] = {}
+
+    def uniform(self, **numbers: float) -> None:
+        """Give all particles fields that are the same everywhere, if they have none of the name."""
+        for name, number in numbers.items():
+            if name not in self.fields:
+                self.fields[name] = np.full(self.total, number)
 
     def prepared(self, preparation: Interaction) -> Prepared:
-        """The form and the numbers of what is prepared of each particle; summed up once."""
+        """The form and the numbers, chunk by chunk, of what is prepared of each particle; summed up once."""
         if preparation not in self._prepared:
-            sweep = PreparationSweep(preparation, self.neighbours, self.fields)
-            numbers = on_threads(sweep.over, self.neighbours.chunks, self.neighbours.threads)
-            self._prepared[preparation] = sweep.template, numbers
+            (sums, numbers), dimension = self._by_chunk(preparation), self.neighbours.dimension
+            if isinstance(preparation, NormalEquations):
+                numbers = on_threads(
+                    lambda moments: solved(preparation, moments, dimension), numbers, self.neighbours.threads
+                )
+            self._prepared[preparation] = (("prepared", form_of(preparation, dimension, sums)),), numbers
         return self._prepared[preparation]
+
+    def _by_chunk(self, interaction: Any) -> tuple[Any, list[Array]]:
+        """The form of a result, and its numbers for the rows of each chunk."""
+        if interaction not in self._together:
+            return self._chunks_of(interaction)
+        result, column = self._place(interaction)
+        size = len(list(leaves(result)))
+
+        def of(block: Array) -> Array:
+            numbers = np.empty((len(block), size))
+            copy_columns(block, column, np.arange(len(block), dtype=np.int32), numbers)
+            return numbers
+
+        return result, on_threads(of, self._blocks, self.neighbours.threads)
+
+    def _place(self, interaction: Any) -> tuple[Any, int]:
+        """The form of a result of those that are summed together, and its first column among theirs."""
+        if not self._places:
+            results, self._blocks = self._chunks_of(Joined(self._together))
+            column = 0
+            for part, result in zip(self._together, results, strict=True):
+                self._places[part] = result, column
+                column += len(list(leaves(result)))
+        return self._places[interaction]
+
+    def _chunks_of(self, interaction: Any) -> tuple[Any, list[Array]]:
+        """Sum up what depends on the particles alone: the form of a result, and the numbers of each chunk's rows."""
+        sweep = Sweep(interaction, self.neighbours, self.fields, packing=self._packing)
+
+        def of(chunk: Chunk) -> Array:
+            rows = chunk.end - chunk.begin
+            out = np.empty((rows, sweep.outputs))
+            sweep.over(chunk, out, np.arange(rows, dtype=np.int32))
+            return out
+
+        return sweep.formula.result, on_threads(of, self.neighbours.chunks, self.neighbours.threads)
 
     def deficient(self, preparation: Preparation) -> Array:
         """The particles whose neighbours are too few or too uneven for a preparation."""
@@ -83,10 +140,12 @@ class ParticleSums:
             [self.neighbours.particles(chunk)[deficient(preparation, numbers)] for chunk, numbers in chunks]
         )
 
-    def sum(self, interaction: Interaction, preparation: Interaction | None = None, **fields: Array) -> Array:
+    def sum(self, interaction: Interaction, preparation: Any = None, **fields: Array) -> Array:
         """An interaction summed over the neighbours of each of the N particles, (N, numbers of its result)."""
+        if interaction in self._together and not fields:
+            return self._of_together(interaction)
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
-        sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own)
+        sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own, packing=self._packing)
         out = np.empty((self.count, sweep.outputs))
 
         def add(item: tuple[int, Chunk]) -> None:
@@ -96,7 +155,7 @@ class ParticleSums:
         on_threads(add, list(enumerate(self.neighbours.chunks)), self.neighbours.threads)
         return out
 
-    def weights(self, interaction: Any, preparation: Any = None) -> list[Array]:
+    def weights(self, interaction: Any, preparation: Interaction | None = None) -> list[Array]:
         """The weights of an interaction's pairs, an array (pairs and a few more,) a chunk of the pair list.
 
         Args:
@@ -104,8 +163,23 @@ class ParticleSums:
             preparation: what it knows of each of the N particles.
         """
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
-        parts = chunk_weights(interaction, self.neighbours, self.fields, own=own, prepared=numbers)
+        parts = chunk_weights(
+            interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
+        )
         return [part[0] for part in parts]
+
+    def _of_together(self, interaction: Any) -> Array:
+        if interaction not in self._sums:
+            result, column = self._place(interaction)
+            out = np.empty((self.count, len(list(leaves(result)))))
+
+            def copy(number: int) -> None:
+                target = self.neighbours.particles(self.neighbours.chunks[number])
+                copy_columns(self._blocks[number], column, target, out)
+
+            on_threads(copy, range(len(self._blocks)), self.neighbours.threads)
+            self._sums[interaction] = out
+        return self._sums[interaction]
 
     def matrix(
         self, interaction: Any, preparation: Interaction | None = None, column: Array | None = None, columns: int = 0
@@ -119,5 +193,7 @@ class ParticleSums:
             columns: their number; 0 is P.
         """
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
-        weights = pair_weights(interaction, self.neighbours, self.fields, own=own, prepared=numbers)
+        weights = pair_weights(
+            interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
+        )
         return sparse_rows(self.neighbours, weights[0], columns or self.total, column)

@@ -10,6 +10,7 @@ from sphear.interactions import Rates
 from sphear.kernels import Kernel
 from sphear.schemes.incompressible.differential_operators import DifferentialOperators
 from sphear.schemes.incompressible.free_surface import along_surface
+from sphear.schemes.incompressible.slopes import add_scaled, changes, squared_traces
 from sphear.schemes.problem import Problem
 from sphear.shifting import ShiftingMethod
 
@@ -47,12 +48,11 @@ class Displacement:
         if self.drift is None:
             return np.zeros_like(velocities), np.zeros_like(velocities)
         # not of `continued`, whose walls hold the fluid: corrected by those, particles before a lid run away
-        count, d = velocities.shape
-        slopes = operators.slopes(operators.slipping(velocities, moved)).reshape(count, d, d)
-        stretched = stretching(slopes, self.least)
-        shift = step * (operators.particles.sum(self.drift) + stretched[:, None] * self.uneven)
+        slopes = operators.slopes(operators.slipping(velocities, moved))
+        shift = step * operators.particles.sum(self.drift)
+        add_scaled(shift, step * stretching(slopes, velocities.shape[1], self.least), self.uneven)
         shift = shift if operators.surface is None else along_surface(shift, operators.surface)
-        return shift, np.einsum("nab,nb->na", slopes, shift)
+        return shift, changes(slopes, shift)
 
 
 def unevenness(count: int, dimension: int, spacing: float, seed: int) -> Array:
@@ -72,12 +72,12 @@ def unevenness(count: int, dimension: int, spacing: float, seed: int) -> Array:
     return UNEVENNESS * spacing * vectors
 
 
-def stretching(slopes: Array, least: float) -> Array:
-    """(N,), the rate at which a flow stretches its lines, sqrt(tr(G^2) / 2) of slopes G (N, d, d); 0 below `least`.
+def stretching(slopes: Array, dimension: int, least: float) -> Array:
+    """(N,), the rate at which a flow stretches its lines, sqrt(tr(G^2) / 2) of slopes G (N, d d); 0 below `least`.
 
     It is that of strain without what turns with the fluid (Okubo 1970, Weiss 1991): zero in parallel flow, which
     only shears lines, and in rotation.
     """
-    squared = 0.5 * np.einsum("nab,nba->n", slopes, slopes)
+    squared = 0.5 * squared_traces(slopes, dimension)
     rate: Array = np.where(squared > least**2, np.sqrt(np.maximum(squared, 0.0)), 0.0)
     return rate

@@ -8,6 +8,7 @@ import numpy as np
 
 from sphear.schemes.incompressible.differential_operators import DifferentialOperators
 from sphear.schemes.incompressible.particle_sums import in_box
+from sphear.schemes.incompressible.sums_of_places import viscosity_elsewhere
 from sphear.schemes.incompressible.viscous import IMPLICIT_SHARE
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def step(flow: IncompressibleFlow) -> None:
         flow.checks.check_speed(flow.time, flow.x, u)
         distance = flow.checks.put_back(flow.time, x, u)
         x = in_box(x, domain)
-    operators = flow.discretisation.at(x, distance)
+    operators = flow.discretisation.at(x, distance, () if viscosity_elsewhere(flow) else flow.together)
     force = _force(flow, operators, flow.time + moved)
     if flow.coupled is not None:
         after, slopes = flow.coupled.solve(operators, u, force, dt, moved, flow.steps)
@@ -81,7 +82,8 @@ def _projected(
     predicted = u + dt * acceleration
     if flow.settings.projection == "intermediate":
         flow.checks.check_speed(flow.time, x, predicted)
-        operators = flow.discretisation.at(in_box(x + dt * predicted, flow.discretisation.domain))
+        x = in_box(x + dt * predicted, flow.discretisation.domain)
+        operators = flow.discretisation.at(x, None, flow.together)
     even = operators.even(acceleration)
     before = operators.divergent(u, -moved) + dt * even
     pressures = flow.pressures.solve(operators, before, even[flow.count :], dt, moved)

@@ -58,11 +58,8 @@ class Viscous:
             count: N.
             near: (N,), which particles are near a free surface; None without one.
         """
-        fields: dict[str, Array] = {
-            "velocity": velocities,
-            "density": np.ones(particles.total),
-            "dynamic_viscosity": np.full(particles.total, self.kinematic_viscosity),
-        }
+        particles.uniform(density=1.0, dynamic_viscosity=self.kinematic_viscosity)
+        fields: dict[str, Array] = {"velocity": velocities}
         lacking = np.empty(0, np.int64)
         if self.preparation is not None:
             lacking = particles.deficient(self.preparation)
