@@ -135,5 +135,7 @@ class DifferentialOperators:
 
     def concentration(self) -> Array:
         """(N,), the density of particles over that of a lattice."""
+        if self.surface is not None:
+            return self.surface.concentration
         result: Array = self.particles.sum(Concentration(self.how.kernel))[:, 0] / self.how.lattice_sum
         return result

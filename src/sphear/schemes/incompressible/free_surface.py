@@ -98,7 +98,8 @@ def surface(particles: ParticleSums, spacing: float, lattice_sum: float) -> Surf
     flags[:count] = on
     near = on | (particles.sum(NearSurface(kernel), None, surface=flags)[:, 0] > 0)
     alone = total - particles.fields["volume"][:count] * kernel.value_at_zero(dimension) < NOTHING
-    rough = near & (np.linalg.eigvalsh(moment)[:, 0] < ROUGH)
+    rough = near.copy()
+    rough[near] = np.linalg.eigvalsh(moment[near])[:, 0] < ROUGH
     return Surface(on, near, alone, rough, concentration, slope, inward, moment, _depth(particles, on, near, spacing))
 
 
@@ -119,8 +120,15 @@ def wetted(points: Array, fluid: Array, spacing: float) -> Array:
     """(W,), the share of points that is in the fluid, from 0, a spacing from the nearest particle, to 1, at 0.7.
 
     A wall particle whose mirror point is outside the fluid stands for no fluid, and nobody may count it.
+
+    Args:
+        points: (W, d), mirror points.
+        fluid: (any, d), the particles near them, and their images.
+        spacing: of the particles.
     """
-    distance = np.asarray(cKDTree(fluid).query(points)[0]) / spacing
+    if not len(fluid):
+        return np.zeros(len(points))
+    distance = np.asarray(cKDTree(fluid).query(points, distance_upper_bound=DRY * spacing)[0]) / spacing
     result: Array = np.clip((DRY - distance) / (DRY - WET), 0.0, 1.0)
     return result
 

@@ -1,0 +1,35 @@
+"""The particles around points, by one sort of the particles."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from sphear.neighbours import Domain
+from sphear.neighbours.points import PointNeighbours, sorted_particles
+
+SUPPORT = 0.2
+
+
+@pytest.mark.parametrize("support", [SUPPORT, 0.6 * SUPPORT])
+@pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
+def test_each_point_has_the_particles_around_it(periodic: tuple[bool, bool], support: float) -> None:
+    rng = np.random.default_rng(3)
+    particles, points = rng.random((150, 2)), 1.2 * rng.random((60, 2)) - 0.1
+    domain = Domain((0.0, 0.0), (1.0, 1.0), periodic)
+    inside = domain.wrapped(points)
+    neighbours = PointNeighbours(inside, sorted_particles(particles, SUPPORT, domain), support)
+    for begin, end in ((0, 60), (17, 41)):
+        chunk = neighbours.listed(begin, end)
+        for row in range(end - begin):
+            entries = chunk.neighbour[chunk.first[row] : chunk.first[row + 1]]
+            apart = np.hypot(*domain.shortest(particles - inside[begin + row]).T)
+            np.testing.assert_array_equal(np.sort(neighbours.source[entries]), np.flatnonzero(apart < support))
+
+
+@pytest.mark.parametrize("coincident", [True, False])
+def test_a_particle_at_a_point(coincident: bool) -> None:
+    particles = np.array([(0.5, 0.5), (0.6, 0.5)])
+    around = sorted_particles(particles, SUPPORT, None)
+    chunk = PointNeighbours(particles[:1], around, SUPPORT, coincident).listed(0, 1)
+    assert chunk.pairs == (2 if coincident else 1)
