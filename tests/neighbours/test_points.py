@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from sphear.neighbours import Domain
+from sphear.neighbours import Domain, Neighbours
 from sphear.neighbours.points import PointNeighbours, sorted_particles
 
 SUPPORT = 0.2
@@ -33,3 +33,23 @@ def test_a_particle_at_a_point(coincident: bool) -> None:
     around = sorted_particles(particles, SUPPORT, None)
     chunk = PointNeighbours(particles[:1], around, SUPPORT, coincident).listed(0, 1)
     assert chunk.pairs == (2 if coincident else 1)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_some_particles_have_the_same_neighbours_as_among_all(threads: int) -> None:
+    particles = np.random.default_rng(5).random((300, 2))
+    domain = Domain((0.0, 0.0), (1.0, 1.0), (True, False))
+    whole = Neighbours(particles, SUPPORT, domain, threads=threads)
+
+    def listed(neighbours: Neighbours) -> dict[int, list[int]]:
+        return {
+            int(row): chunk.neighbour[chunk.first[k] : chunk.first[k + 1]].tolist()
+            for chunk in neighbours.chunks
+            for k, row in enumerate(neighbours.particles(chunk))
+        }
+
+    chosen = particles[:, 0] < 0.1
+    everything, some = listed(whole), listed(whole.of(chosen))
+    assert some == {row: entries for row, entries in everything.items() if chosen[row]}
+    assert whole.of(np.zeros(300, bool)).chunks == []
+    assert listed(whole) == everything

@@ -74,8 +74,9 @@ def refuse_pairs(start: Array, rows: Array, reach: int, entries: int, particles:
     """
     held = np.diff(start).astype(np.float64)
     share = particles / max(1, entries) * (0.5 if once else 1.0)
-    # sum_c n_c n_(c + k) <= sum_c n_c^2, so that this is enough for whatever lists are usual
-    if PAIR_BYTES * share * len(rows) * (2 * reach + 1) * float(held @ held) < UNASKED:
+    # sum_c n_c n_(c + k) <= sum_c n_c^2, so that this is enough for whatever lists are usual; not by `@`: of so many
+    # cells its library wakes threads of its own, and on busy processors waits for them much longer than it computes
+    if PAIR_BYTES * share * len(rows) * (2 * reach + 1) * float(np.einsum("c,c->", held, held)) < UNASKED:
         return
     used = np.flatnonzero(held)
     candidates = sum(

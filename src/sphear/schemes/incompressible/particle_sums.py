@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -66,6 +67,12 @@ class ParticleSums:
         self.fields: dict[str, Array] = {"volume": volume}
         self._prepared: dict[Any, Prepared] = {}
 
+    def of(self, chosen: Array) -> ParticleSums:
+        """The same for some of the N particles only, those that are True in `chosen`, (N,); sums of others are zero."""
+        found = copy(self)
+        found.neighbours, found._prepared = self.neighbours.of(chosen), {}
+        return found
+
     def prepared(self, interaction: Any) -> Prepared:
         """The numbers of an interaction that is summed up beforehand, chunk by chunk; summed up once."""
         if interaction not in self._prepared:
@@ -101,7 +108,8 @@ class ParticleSums:
         """An interaction summed over the neighbours of each of the N particles, (N, numbers of its result)."""
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
         sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own)
-        out = np.empty((self.count, sweep.outputs))
+        some = self.neighbours.count < self.count
+        out = (np.zeros if some else np.empty)((self.count, sweep.outputs))
 
         def add(item: tuple[int, Chunk]) -> None:
             number, chunk = item
