@@ -120,6 +120,15 @@ class Neighbours:
         found._cells = replace(self._cells, coordinates=found.coordinates)
         return found
 
+    def of(self, chosen: Array) -> Neighbours:
+        """The same particles, sums being made for some of them only: those that are True in `chosen`, (N,)."""
+        found = copy(self)
+        rows = np.flatnonzero(chosen[self.rows])
+        found.entry, found.rows, found.count = self.entry[rows], self.rows[rows], len(rows)
+        for listed in ("chunks", "chunks_once", "alternating"):
+            found.__dict__.pop(listed, None)
+        return found
+
     @property
     def alone(self) -> Array:
         """The particles that have no neighbour, in their order."""
@@ -167,7 +176,7 @@ class Neighbours:
         share = (
             min(2 * self.threads, max(1, self.count)) if self.threads > 1 else 1
         )  # each thread has as many chunks, every second one too
-        parts = share * -(-self.count // (share * CHUNK_ROWS))
+        parts = max(1, share * -(-self.count // (share * CHUNK_ROWS)))
         bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
         ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
 
