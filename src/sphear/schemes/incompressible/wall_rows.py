@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,7 @@ from scipy.sparse import csr_array
 
 from sphear.engine.formula import Interaction
 from sphear.engine.sweep import Sweep
-from sphear.engine.threads import on_threads
+from sphear.engine.threads import on_threads, ranges
 from sphear.engine.weights import PairWeights
 from sphear.neighbours.points import PointNeighbours, SortedParticles
 
@@ -74,8 +73,7 @@ class FittedRows:
             return chunk.first, places, kept.of(chunk, coefficients)[0]
 
         parts = max(1, min(threads, len(self.points) // WORTH_A_CHUNK))
-        ranges = list(pairwise(np.linspace(0, len(self.points), parts + 1).astype(int).tolist()))
-        firsts, places, weights = zip(*on_threads(part, ranges, threads), strict=True)
+        firsts, places, weights = zip(*on_threads(part, ranges(len(self.points), parts), threads), strict=True)
         before = np.cumsum([0, *(first[-1] for first in firsts[:-1])])
         starts = np.concatenate(([0], *(first[1:] + start for first, start in zip(firsts, before, strict=True))))
         found = whole(weights), whole(places), starts.astype(np.int32)
