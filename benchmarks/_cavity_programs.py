@@ -80,7 +80,7 @@ class IcoFoam(Program):
             return steps, seconds, deviation(reynolds, until, _icofoam.profiles(folder, side, until, STATIONS))
 
 
-@dataclass
+@dataclass(frozen=True, eq=False)
 class PySPH(Program):
     """The cavity of PySPH's own examples, by one of its schemes; its ISPH knows no walls.
 

@@ -109,9 +109,8 @@ def main() -> None:
     for name in chosen.again:
         kept.drop(name, processor)
     versions = {program: program.version() for program in PROGRAMS if program.name in {OWN, *chosen.programs}}
-    for program in versions:
-        if versions[program] is None:
-            report.say(program.missing)
+    for sentence in sorted({program.missing for program, version in versions.items() if version is None}):
+        report.say(sentence)
     for reynolds in chosen.reynolds:
         searches = {}
         for program, version in versions.items():

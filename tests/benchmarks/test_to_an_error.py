@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import json
 import math
 import sys
 from dataclasses import replace
@@ -162,6 +163,33 @@ def test_particles_of_other_programs_are_read_off_as_those_of_sphear() -> None:
     stations = lines["u"][0]
     np.testing.assert_allclose(lines["u"][1], stations**2 + 0.5, atol=1e-9)
     np.testing.assert_allclose(lines["v"][1], 0.5 * stations, atol=1e-9)
+
+
+def test_the_whole_benchmark_searches_tells_keeps_and_draws(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Programs of second order, one of which takes twelve times as long; the others are not installed."""
+    whole, programs = script("to_an_error"), script("_cavity_programs")
+    slow = {programs.Sphear: 1.0, programs.IcoFoam: 12.0}
+    for program, cost in slow.items():
+        monkeypatch.setattr(program, "version", lambda self: "1")
+        monkeypatch.setattr(
+            program, "compute", lambda self, _, side, __, cost=cost: (1, cost * side**3, 10.0 / side**2)
+        )
+    monkeypatch.setattr(programs.PySPH, "version", lambda self: None)
+    files = {name: str(tmp_path / name) for name in ("runs.json", "told.json", "picture.png")}
+    arguments = ["--runs", files["runs.json"], "--json", files["told.json"], "--picture", files["picture.png"]]
+    monkeypatch.setattr(sys, "argv", ["to_an_error.py", "--longest", "1e9", *arguments])
+    whole.main()
+    said = capsys.readouterr().out
+    assert said.count(programs.PySPH.missing) == 1
+    assert "MISSED" not in said
+    assert (tmp_path / "picture.png").read_bytes()[1:4] == b"PNG"
+    told = json.loads((tmp_path / "told.json").read_text())["results"]
+    ratios = [row["value"] for row in told if "time" in row["what"]]
+    assert ratios == pytest.approx([12.0] * 2 * len(whole.DEVIATIONS))
+    monkeypatch.setattr(programs.IcoFoam, "compute", None)  # all are known
+    whole.main()
 
 
 def test_the_script_of_sphear_prints_what_is_kept() -> None:
