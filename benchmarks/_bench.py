@@ -84,12 +84,19 @@ def machine() -> dict[str, str | int]:
 
 
 class Report:
-    """Prints what was measured as it comes; with `--json FILE` on the command line it also keeps it there."""
+    """Prints what was measured as it comes; with `--json FILE` on the command line it also keeps it there.
 
-    def __init__(self, title: str) -> None:
+    Args:
+        title: what is measured, the docstring of the benchmark.
+        more: adds options of its own to the command line; what was chosen is `options`.
+    """
+
+    def __init__(self, title: str, more: Callable[[argparse.ArgumentParser], object] = bool) -> None:
         parser = argparse.ArgumentParser(description=title, formatter_class=argparse.RawDescriptionHelpFormatter)
         parser.add_argument("--json", type=Path, metavar="FILE", help="write the numbers there too")
-        self.file: Path | None = parser.parse_args().json
+        more(parser)
+        self.options = parser.parse_args()
+        self.file: Path | None = self.options.json
         self.results: list[dict[str, Any]] = []
         self.machine = machine()
         print(title.splitlines()[0], "; ".join(f"{name} {value}" for name, value in self.machine.items()), sep="\n")

@@ -1,130 +1,141 @@
-"""A step of the incompressible scheme: beside an unpreconditioned solver, beside PySPH's, and as flows grow.
+"""Steps of the incompressible scheme as flows grow, on one and on two threads, and beside another source tree.
 
-Each on one core. PYSPH_PYTHON names an interpreter that has PySPH, if this one has not.
+    python benchmarks/incompressible_step.py [--beside CHECKOUT] [--runs N] [--sides N ...]
+
+Milliseconds a step of the cavity at 50 to 400 particles a side, of the cavity with a cylinder and of the dam break, all
+at Re = 1000, and bytes a particle of the largest cavity beyond those of one with 20 a side. Every run is a process of
+its own that makes 20 steps first; the least of several runs counts. With --beside, a folder that has src/sphear, its
+runs take turns with those of this tree, with compiled code in a folder of its own, and ratios are printed. Two threads
+need two idle cores.
 """
 
 from __future__ import annotations
 
+import argparse
+import json
 import os
 import subprocess
 import sys
+import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from _bench import Measurement, Report, best_of, clocked, own_clock
-from scipy.sparse.linalg import LinearOperator, bicgstab
+from _bench import Report
 
-from sphear.cases.flow import FLOWS
-from sphear.pressure import Solution
-from sphear.schemes.base import Flow, flow_of
-from sphear.schemes.incompressible import pressures
+HERE = Path(__file__).parents[1]
+SIDES = (50, 100, 200, 400)
+OTHER_CASES = {"cavity-cylinder": (100, 200), "dam-break": (50, 100)}  # particles a side, and across the column
+THREADS = (1, 2)
+SMALL = 20  # particles a side of what is subtracted from the memory
+PARTICLES = 400_000  # that a run moves by a step each, after its first steps; at least 10 steps
+LEAST_STEPS, MOST_STEPS = 10, 100
 
-WARM_UP = 20  # steps, until particles are disordered and the pressure is known
-
-
-def cavity(side: int, **settings: Any) -> Flow:
-    """A cavity at Re = 1000 some steps after its start."""
-    case = FLOWS["cavity"]
-    chosen = case.settings(scheme="incompressible", reynolds=1000.0, resolution=side, threads=1, **settings)
-    made = flow_of(case.problem(chosen), chosen)
-    made.advance(WARM_UP)
-    return made
+Tree = Mapping[str, str]
+"""The environment of a source tree's runs."""
+Said = dict[str, Any]
 
 
-def unpreconditioned(system: Any, right: Any, guess: Any, name: Any, tolerance: float, floor: float) -> Solution:
-    """SciPy's BiCGSTAB on the same system from the same guess to the same tolerance, constants taken out as well."""
-
-    def times(vector: Any) -> Any:
-        product = system.matrix @ vector
-        return product - product.mean()
-
-    balanced = right - right.mean()
-    operator = LinearOperator(system.matrix.shape, matvec=times, dtype=np.float64)
-    values, fault = bicgstab(operator, balanced, guess, rtol=tolerance, maxiter=5000)
-    if fault:
-        raise SystemExit("plain BiCGSTAB did not converge")
-    residual = float(np.linalg.norm(balanced - times(values)) / np.linalg.norm(balanced))
-    return Solution(values, 0, residual, 0.0, "bicgstab", "none")
+def options(parser: argparse.ArgumentParser) -> None:
+    """The options of this benchmark."""
+    parser.add_argument("--beside", type=Path, metavar="CHECKOUT", help="a folder that has src/sphear")
+    parser.add_argument("--runs", type=int, default=3, metavar="N", help="of which the least counts (3)")
+    parser.add_argument("--sides", type=int, nargs="+", default=list(SIDES), metavar="N", help="of the cavity")
+    parser.add_argument("--cavity-only", action="store_true", help="leave the other flows out")
 
 
-def free(system: Any, right: Any, guess: Any, name: Any, tolerance: float, floor: float) -> Solution:
-    """No solve at all: what no solver can be faster than."""
-    return Solution(guess, 0, 0.0, 0.0, "none", "none")
+def tree(root: Path, **more: str) -> Tree:
+    """The environment in which Python imports the sphear of a source tree."""
+    source = root.resolve() / "src"
+    if not (source / "sphear").is_dir():
+        raise SystemExit(f"{root} has no src/sphear: name the folder of a checkout")
+    return {**os.environ, "PYTHONPATH": str(source), **more}
 
 
-def exchanged(flow: Flow, name: str, solver: Any, cold: bool) -> Measurement:
-    """The same step again and again, its solver exchanged, from the last pressure or from none."""
-    with_it, state = pressures.solve, flow.state()
-
-    def measure() -> dict[str, float]:
-        flow.restore(state)
-        if cold:
-            flow.pressure[:] = 0.0
-        pressures.solve = solver
-        begin = own_clock()
-        try:
-            flow.advance(1)
-        finally:
-            pressures.solve = with_it
-        return {name: own_clock() - begin}
-
-    return measure
+def steps_of(case: str, side: int) -> int:
+    """The steps that a run is timed over."""
+    particles = 2 * side**2 if case == "dam-break" else side**2
+    return min(MOST_STEPS, max(LEAST_STEPS, PARTICLES // particles))
 
 
-def beside_plain_solver(report: Report, side: int, tolerance: float, cold: bool) -> None:
-    """A step beside the same with SciPy's plain BiCGSTAB, and beside one whose pressure costs nothing."""
-    solvers = {"sphear": pressures.solve, "plain": unpreconditioned, "free": free}
-    flows = [(cavity(side, tolerance=tolerance), name, solver) for name, solver in solvers.items()]
-    times = best_of(10, *(exchanged(flow, name, solver, cold) for flow, name, solver in flows))
-    begun = "from nothing" if cold else "from the last pressure"
-    report.add(f"cavity {side}x{side}, to {tolerance:g} {begun}, a step", 1e3 * times["sphear"], "ms")
-    asked = {"at_least": 20} if side == 100 else {}
-    report.add("  speed over unpreconditioned BiCGSTAB", times["plain"] / times["sphear"], **asked)
-    report.add("  that of a solve that costs nothing", times["plain"] / times["free"])
-    of_solves = (times["plain"] - times["free"]) / (times["sphear"] - times["free"])
-    report.add("  speed of the solve alone", of_solves)
+def run(where: Tree, case: str, side: int, threads: int, steps: int | None = None) -> Said:
+    """One run in a process of its own."""
+    script = str(Path(__file__).parent / "_incompressible_steps.py")
+    arguments = (case, side, threads, steps_of(case, side) if steps is None else steps)
+    command = [sys.executable, script, *map(str, arguments)]
+    done = subprocess.run(command, env=where, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise SystemExit(f"{case} with {side} in {where['PYTHONPATH']} failed: {done.stderr.strip()[-1000:]}")
+    said: Said = json.loads(done.stdout.splitlines()[-1])
+    if Path(said["package"]).parent != Path(where["PYTHONPATH"]):
+        raise SystemExit(f"the sphear of {said['package']} was imported and not that of {where['PYTHONPATH']}")
+    return said
 
 
-def pysph(side: int, steps: int) -> Measurement | None:
-    """Seconds a step of PySPH's ISPH, in a process of its own; None where it is not installed."""
-    interpreter = os.environ.get("PYSPH_PYTHON", sys.executable)
-    alone = {**os.environ, "OMP_NUM_THREADS": "1"}
-    if subprocess.run([interpreter, "-c", "import pysph"], env=alone, capture_output=True).returncode:
-        return None
-    command = [interpreter, str(Path(__file__).parent / "_pysph_isph.py"), str(side), str(steps)]
+def least(trees: Mapping[str, Tree], case: str, side: int, threads: int, runs: int) -> dict[str, Said]:
+    """Of each tree the run with the least time, the trees taken in turn."""
+    best: dict[str, Said] = {}
+    for _ in range(runs):
+        for name, where in trees.items():
+            said = run(where, case, side, threads)
+            if name not in best or said["milliseconds"] < best[name]["milliseconds"]:
+                best[name] = said
+    return best
 
-    def measure() -> dict[str, float]:
-        said = subprocess.run(command, env=alone, capture_output=True, text=True, check=True).stdout
-        return {"PySPH": float(said.split()[-1])}
 
-    return measure
+def measured(report: Report, trees: Mapping[str, Tree], case: str, side: int, runs: int) -> dict[int, dict[str, Said]]:
+    """The least times of a flow on each number of threads, told with their ratios."""
+    found = {threads: least(trees, case, side, threads, runs) for threads in THREADS}
+    what = f"{case} {side} wide" if case == "dam-break" else f"{case} {side}x{side}"
+    for name in trees:
+        of = "" if len(trees) == 1 else f", {name}"
+        for threads in THREADS:
+            counted = f"{threads} thread{'s' if threads > 1 else ''}"
+            report.add(f"{what}, a step on {counted}{of}", found[threads][name]["milliseconds"], "ms")
+        one, two = (found[threads][name]["milliseconds"] for threads in THREADS)
+        report.add(f"  speed on two threads over one{of}", one / two)
+    if len(trees) == 2:
+        for threads in THREADS:
+            this, other = (said["milliseconds"] for said in found[threads].values())
+            report.add(f"  time of this tree over the other's, {threads} thread{'s' * (threads > 1)}", this / other)
+    return found
+
+
+def memory(trees: Mapping[str, Tree], largest: dict[str, Said]) -> dict[str, float]:
+    """Bytes a particle of the largest cavity of each tree, what a small one needs subtracted."""
+    found = {}
+    for name, where in trees.items():
+        small, large = run(where, "cavity", SMALL, 1, steps=LEAST_STEPS), largest[name]
+        found[name] = (large["memory"] - small["memory"]) / (large["particles"] - small["particles"])
+    return found
 
 
 def main() -> None:
-    report = Report(__doc__ or "")
-    for side, tolerance, cold in ((100, 1e-4, False), (100, 1e-6, True), (200, 1e-6, True)):
-        beside_plain_solver(report, side, tolerance, cold)
-
-    case = FLOWS["taylor-green"]
-    chosen = case.settings(scheme="incompressible", resolution=50, threads=1)
-    vortex = flow_of(case.problem(chosen), chosen)
-    vortex.advance(WARM_UP)
-    mine, theirs = clocked("sphear", lambda: vortex.advance(1)), pysph(50, 30)
-    if theirs is None:
-        report.say("PySPH is not installed: skipped. PYSPH_PYTHON may name an interpreter that has it.")
-    else:
-        times = best_of(20, mine, theirs)
-        report.add("Taylor-Green 50x50, a step", 1e3 * times["sphear"], "ms")
-        report.add("  speed over PySPH's ISPH", times["PySPH"] / times["sphear"], at_least=15)
-
-    cost = {}
-    for side in (50, 100, 200, 400):
-        flow = cavity(side)
-        taken = best_of(6, clocked("step", lambda flow=flow: flow.advance(1)))["step"]
-        cost[side] = taken / flow.count
-        report.add(f"cavity {side}x{side}, a particle and step", 1e6 * cost[side], "us")
-    report.add("cost of a particle and step, most over 50x50", max(cost.values()) / cost[50], at_most=1.3)
+    report = Report(__doc__ or "", options)
+    chosen = report.options
+    with tempfile.TemporaryDirectory() as cache:
+        trees = {"this tree": tree(HERE)}
+        if chosen.beside is not None:
+            trees["the other"] = tree(chosen.beside, SPHEAR_CACHE_DIR=cache)
+        cost, largest = {}, {}
+        for side in sorted(chosen.sides):
+            found = measured(report, trees, "cavity", side, chosen.runs)
+            largest = found[1]
+            own = largest["this tree"]
+            cost[side] = 1e3 * own["milliseconds"] / own["particles"]
+            report.add("  a particle and step on one thread", cost[side], "us")
+        if len(cost) > 1:
+            report.add(f"cost of a particle, most over {min(cost)} a side", max(cost.values()) / cost[min(cost)],
+                       at_most=1.3)  # fmt: skip
+        bytes_each = memory(trees, largest)
+        for name, each in bytes_each.items():
+            report.add(f"memory a particle, {max(cost)}x{max(cost)}, {name}", each, "bytes")
+        if chosen.beside is not None:
+            this, other = bytes_each.values()
+            report.add("  memory of this tree over the other's", this / other)
+        for case, sizes in {} if chosen.cavity_only else OTHER_CASES.items():
+            for side in sizes:
+                measured(report, trees, case, side, chosen.runs)
     report.close()
 
 
