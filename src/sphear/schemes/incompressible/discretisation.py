@@ -69,6 +69,13 @@ class Discretisation:
             distance: (N,), from walls, if that is known.
             together: sums over places and volumes that will all be asked for, see `ParticleSums`.
         """
+        particles = self.particles(x, together)
+        if self.walls is not None and self.region is not None and distance is None:
+            distance = self.region.distance(x)
+        return DifferentialOperators(self, particles, distance)
+
+    def particles(self, x: Array, together: Sequence[Any] = ()) -> ParticleSums:
+        """The particles at x (N, d) and those of walls; `together` as for `at`."""
         walls, dx = self.walls, self.problem.spacing
         everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
         volume = np.full(len(everything), dx ** x.shape[1])
@@ -77,9 +84,4 @@ class Discretisation:
             if self.problem.free_surface:
                 fluid = x if self.domain is None else self.domain.with_images(x, walls.reach)[0]
                 volume[self.count :] *= wetted(walls.images, fluid, dx)
-        particles = ParticleSums(
-            everything, self.count, self.kernel, volume, self.domain, self.threads, together=together
-        )
-        if walls is not None and self.region is not None and distance is None:
-            distance = self.region.distance(x)
-        return DifferentialOperators(self, particles, distance)
+        return ParticleSums(everything, self.count, self.kernel, volume, self.domain, self.threads, together=together)
