@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from itertools import groupby, pairwise
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from sphear.engine.records import empty_records, pack, pack_positions, record_width
-from sphear.engine.threads import on_threads
+from sphear.engine.threads import on_threads, ranges
 
 if TYPE_CHECKING:
     from sphear.neighbours import Neighbours
@@ -53,17 +53,19 @@ class Records:
 
     def packed(self, columns: Columns, fields: Fields, with_position: bool = False) -> Array:
         """The columns, (field, component), of each entry side by side, (entries, columns)."""
+        begin = self.neighbours.dimension if with_position else 0
+        entries = len(self.neighbours.source)
+        if not begin + len(columns):
+            return np.empty((entries, 0), self.dtype)
         stay = 0
         while stay < len(columns) and fields[columns[stay][0]] is self.lasting.get(columns[stay][0]):
             stay += 1
-        neighbours = self.neighbours
-        begin = neighbours.dimension if with_position else 0
         key = columns[:stay], record_width(begin + len(columns)), with_position
         records = self._kept.get(key)
         if records is None:
-            records = empty_records(len(neighbours.source), begin + len(columns), self.dtype)
+            records = empty_records(entries, begin + len(columns), self.dtype)
             if with_position:
-                pack_positions(records, neighbours.coordinates)
+                pack_positions(records, self.neighbours.coordinates)
             self._pack(records, begin, columns[:stay], fields)
             if stay or with_position:
                 self._kept[key] = records
@@ -71,14 +73,18 @@ class Records:
         return records
 
     def _pack(self, records: Array, begin: int, columns: Columns, fields: Fields) -> None:
+        if not columns:
+            return
         source, threads = self.neighbours.source, self.neighbours.threads
         parts = max(1, min(threads, len(source) // SHARE))
-        bounds = [len(source) * part // parts for part in range(parts + 1)]
         for name, first, last, column in runs(columns):
             values = fields[name]
             values = values.reshape(len(values), -1)[:, first:last]
+            if parts == 1:
+                pack(records, begin + column, values, source)
+                continue
 
             def job(part: tuple[int, int], values: Array = values, column: int = begin + column) -> None:
                 pack(records[slice(*part)], column, values, source[slice(*part)])
 
-            on_threads(job, list(pairwise(bounds)), threads)
+            on_threads(job, ranges(len(source), parts), threads)

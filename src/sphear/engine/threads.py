@@ -42,6 +42,11 @@ def _pool(threads: int, process: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(threads, thread_name_prefix="sphear")
 
 
+def ranges(count: int, parts: int) -> list[tuple[int, int]]:
+    """The ranges (begin, end) of `parts` parts of 0 ... count - 1, as even as can be."""
+    return [(count * part // parts, count * (part + 1) // parts) for part in range(parts)]
+
+
 def on_threads(function: Callable[[S], T], items: Sequence[S], threads: int) -> list[T]:
     """function(item) of each item, in their order; an error of any is raised once nothing is at work any more.
 

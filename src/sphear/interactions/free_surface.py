@@ -63,18 +63,6 @@ class Umbrella(Sum):
 
 
 @dataclass(frozen=True)
-class NearSurface(Sum):
-    """sum_j V_j W_ij s_j, above zero where a neighbour is on the surface (s_j = 1)."""
-
-    kernel: Kernel
-
-    def pair(self, own: Any, other: Any, d: Vector, r2: Scalar) -> Vector:
-        """The pair's part."""
-        weight = other.volume * self.kernel.value(r2, len(d)) * other.surface
-        return (weight,)
-
-
-@dataclass(frozen=True)
 class LaplacianMoments(Sum):
     """sum_j V_j w_ij and sum_j V_j w_ij (r_j - r_i) of a Laplacian's weights: what is missing at a surface."""
 

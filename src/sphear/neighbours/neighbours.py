@@ -5,12 +5,11 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from sphear.engine.threads import on_threads, thread_count
+from sphear.engine.threads import on_threads, ranges, thread_count
 from sphear.errors import SphearError
 from sphear.neighbours.cell_sort import cell_sort
 from sphear.neighbours.cells import PADDING, REACH, point_cells
@@ -120,6 +119,15 @@ class Neighbours:
         found._cells = replace(self._cells, coordinates=found.coordinates)
         return found
 
+    def of(self, chosen: Array) -> Neighbours:
+        """The same particles, sums being made for some of them only: those that are True in `chosen`, (N,)."""
+        found = copy(self)
+        rows = np.flatnonzero(chosen[self.rows])
+        found.entry, found.rows, found.count = self.entry[rows], self.rows[rows], len(rows)
+        for listed in ("chunks", "chunks_once", "alternating"):
+            found.__dict__.pop(listed, None)
+        return found
+
     @property
     def alone(self) -> Array:
         """The particles that have no neighbour, in their order."""
@@ -167,20 +175,19 @@ class Neighbours:
         share = (
             min(2 * self.threads, max(1, self.count)) if self.threads > 1 else 1
         )  # each thread has as many chunks, every second one too
-        parts = share * -(-self.count // (share * CHUNK_ROWS))
-        bounds = np.linspace(0, self.count, parts + 1).astype(int).tolist()
-        ranges = [(begin, end) for begin, end in pairwise(bounds) if begin < end]
+        parts = max(1, share * -(-self.count // (share * CHUNK_ROWS)))
+        parts_of_rows = [(begin, end) for begin, end in ranges(self.count, parts) if begin < end]
 
         # one piece of memory for the lists of all chunks: the system maps and clears smaller ones anew each time
         size, most = list_capacity(self._cells, -(-self.count // parts), once)
-        memory = np.empty((len(ranges), size), np.int32)
+        memory = np.empty((len(parts_of_rows), size), np.int32)
 
         def build(number: int) -> tuple[Chunk, int]:
             return build_chunk(
                 self._cells,
                 self._image,
                 self.entry,
-                *ranges[number],
+                *parts_of_rows[number],
                 self.support,
                 memory[number],
                 most,
@@ -188,7 +195,7 @@ class Neighbours:
                 keep_coincident=self._keep_coincident,
             )
 
-        built = on_threads(build, range(len(ranges)), self.threads)
+        built = on_threads(build, range(len(parts_of_rows)), self.threads)
         for chunk, coincident in built:
             if coincident and not self._keep_coincident:
                 self._refuse_coincident(chunk)

@@ -84,9 +84,13 @@ class HalfPlane(Primitive):
         """True if the wall is along the axis."""
         return self.inward[axis] == 0.0
 
+    def distance_from(self, points: Array) -> Array:
+        """The distance to the wall."""
+        return np.asarray((points - np.array(self.point)) @ np.array(self.inward))
+
     def seen_from(self, points: Array) -> Foot:
         """Distance, normal and velocity of the wall."""
-        distance = (points - np.array(self.point)) @ np.array(self.inward)
+        distance = self.distance_from(points)
         velocity = (SLIPS, 0.0) if self.slips else self.velocity
         return Foot(distance, np.tile(self.inward, (len(points), 1)), np.tile(velocity, (len(points), 1)))
 

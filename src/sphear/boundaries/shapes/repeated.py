@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import reduce
 from itertools import product
 from math import isfinite
 
@@ -63,14 +65,16 @@ class Repeated(Shape):
         """The primitives of one image."""
         return self.shape.primitives(inverted)
 
+    def distance_from(self, points: Array) -> Array:
+        """The distance to the nearest of the images in the window and in the periods beside it."""
+        first, *others = (self.shape.distance_from(image) for image in self._images(points))
+        return reduce(lambda best, other: np.where(np.abs(other) < np.abs(best), other, best), others, first)
+
     def seen_from(self, points: Array) -> Foot:
         """The foot on the nearest of the images in the window and in the periods beside it."""
-        inside = self.window.wrapped(points)
-        periods = np.array(self.window.upper) - np.array(self.window.lower)
-        steps = [(0, -1, 1) if axis in self.window.periodic_axes else (0,) for axis in range(2)]
         best: Foot | None = None
-        for shift in product(*steps):
-            foot = self.shape.seen_from(inside - np.array(shift) * periods)
+        for image in self._images(points):
+            foot = self.shape.seen_from(image)
             if best is None:
                 best = foot
                 continue
@@ -82,6 +86,13 @@ class Repeated(Shape):
             )
         assert best is not None
         return best
+
+    def _images(self, points: Array) -> Iterator[Array]:
+        """Points as each image sees them, (N, 2), that in the window first."""
+        inside = self.window.wrapped(points)
+        periods = np.array(self.window.upper) - np.array(self.window.lower)
+        steps = [(0, -1, 1) if axis in self.window.periodic_axes else (0,) for axis in range(2)]
+        return (inside - np.array(shift) * periods for shift in product(*steps))
 
     def __str__(self) -> str:
         return f"{self.shape}, repeated"

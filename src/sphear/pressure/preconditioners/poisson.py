@@ -10,6 +10,10 @@ from scipy.fft import dctn, idctn, irfftn, rfftn
 
 Array = np.ndarray[Any, Any]
 
+# nodes along each of two axes, up to which products with the modes are faster than SciPy's transforms, whose calls take
+# longer than what they do; and as many as OpenBLAS multiplies on the thread that calls
+FEW = 64
+
 
 class BoxPoisson:
     """The inverse of the second-difference Laplacian on a box of nodes at the middles of cells.
@@ -37,11 +41,18 @@ class BoxPoisson:
         self.counts, self.threads = counts, threads
         self.walls = tuple(axis for axis, flag in enumerate(periodic) if not flag)
         self.repeating = tuple(axis for axis, flag in enumerate(periodic) if flag)
-        self.inverse = factor * _inverse_eigenvalues(counts, size, periodic)
+        self.bases: tuple[Array, ...] = ()
+        if len(counts) == 2 and max(counts) <= FEW:
+            self.bases = tuple(_basis(count, flag) for count, flag in zip(counts, periodic, strict=True))
+        self.inverse = factor * _inverse_eigenvalues(counts, size, periodic, bool(self.bases))
 
     def __call__(self, grid: Array) -> Array:
         """The solution (nodes,) for a source (nodes,), both flat; the source may be written over."""
         field: Any = grid.reshape(self.counts)
+        if self.bases:
+            along, across = self.bases
+            solved: Array = along @ (self.inverse * (along.T @ field @ across)) @ across.T
+            return solved.reshape(-1)
         if self.walls:
             field = dctn(field, axes=self.walls, norm="ortho", overwrite_x=True, workers=self.threads)
         if self.repeating:
@@ -57,15 +68,41 @@ class BoxPoisson:
 
 
 @lru_cache(maxsize=8)  # the box of a run does not change from step to step
-def _inverse_eigenvalues(counts: tuple[int, ...], size: tuple[float, ...], periodic: tuple[bool, ...]) -> Array:
+def _inverse_eigenvalues(
+    counts: tuple[int, ...], size: tuple[float, ...], periodic: tuple[bool, ...], by_bases: bool
+) -> Array:
     repeating = [axis for axis, flag in enumerate(periodic) if flag]
     total: Array = np.zeros((1,) * len(counts))
     for axis, (count, step) in enumerate(zip(counts, size, strict=True)):
-        modes = count // 2 + 1 if repeating and axis == repeating[-1] else count  # what a transform of reals keeps
-        angle = (2 * np.pi if periodic[axis] else np.pi) * np.arange(modes) / count
+        if by_bases:
+            modes = _modes(count, periodic[axis])
+        else:
+            halved = repeating and axis == repeating[-1]  # what a transform of reals keeps
+            modes = np.arange(count // 2 + 1 if halved else count)
+        angle = (2 * np.pi if periodic[axis] else np.pi) * modes / count
         shape = [1] * len(counts)
         shape[axis] = -1
         total = total + ((2 - 2 * np.cos(angle)) / step**2).reshape(shape)
     total.flat[0] = np.inf
     inverse: Array = 1.0 / total
     return inverse
+
+
+def _modes(count: int, periodic: bool) -> Array:
+    """(count,), the wave number of each basis vector: those of a periodic axis are a cosine and a sine each."""
+    numbers = np.arange(count)
+    return (numbers + 1) // 2 if periodic else numbers
+
+
+@lru_cache(maxsize=8)
+def _basis(count: int, periodic: bool) -> Array:
+    """(count, count), orthonormal: the columns are the modes of an axis at its nodes."""
+    modes, nodes = _modes(count, periodic), np.arange(count)
+    if periodic:
+        angle = 2 * np.pi * np.outer(nodes, modes) / count
+        basis = np.where(np.arange(count) % 2, np.cos(angle), np.sin(angle))
+        basis[:, 0] = 1.0
+    else:
+        basis = np.cos(np.pi * np.outer(nodes + 0.5, modes) / count)
+    result: Array = basis / np.linalg.norm(basis, axis=0)
+    return result

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
 from sphear.engine.cache import compiled
-from sphear.engine.threads import on_threads
+from sphear.engine.threads import on_threads, ranges
 
 Array = np.ndarray[Any, Any]
 
-BLOCK, MOST_BLOCKS = 5000, 8  # particles of a block, at least, and how many blocks at most
+BLOCK, MOST_BLOCKS = 15000, 8  # particles of a block, at least, and how many blocks at most
 
 
 @compiled
@@ -97,7 +96,7 @@ class Transfer:
         box = np.array(lower), np.array(size), np.array(counts), np.array(periodic)
         blocks = min(max(len(positions) // BLOCK, 1), MOST_BLOCKS)
         self.threads = min(threads, blocks)
-        self.blocks = [slice(*ends) for ends in pairwise(np.linspace(0, len(positions), blocks + 1).astype(int))]
+        self.blocks = [slice(*ends) for ends in ranges(len(positions), blocks)]
         self._grids = np.empty((blocks, int(np.prod(counts))))
         self._around = on_threads(lambda block: surrounding_nodes(positions[block], *box), self.blocks, self.threads)
 

@@ -58,7 +58,8 @@ def small_solve(flow: IncompressibleFlow) -> None:
 def sums(flow: IncompressibleFlow) -> None:
     """Sum what a step sums once walls have fields, the last first: meanwhile the step itself finds these."""
     how, laplacian = flow.discretisation, flow.pressures.assembly
-    particles = how.particles(flow.x, flow.together)
+    distance = None if how.region is None else how.region.distance(flow.x)
+    particles = how.particles(flow.x, distance, flow.together)
     operators = DifferentialOperators(how, particles, None)
     fields = np.zeros((particles.total, flow.x.shape[1]))
     operators.pressure_gradient(fields[:, 0].copy())

@@ -54,7 +54,8 @@ class DifferentialOperators:
         result = self.gradient(fields)
         if self.surface is None or not self.surface.rough.any():
             return result
-        plain = self.particles.sum(Gradient(self.discretisation.kernel, NoCorrection(), True), None, values=fields)
+        rough = self.particles.of(self.surface.rough)
+        plain = rough.sum(Gradient(self.discretisation.kernel, NoCorrection(), True), None, values=fields)
         return np.where(self.surface.rough[:, None], plain, result)
 
     def divergence(self, velocities: Array, later: float = 0.0) -> Array:

@@ -10,7 +10,6 @@ import numpy as np
 from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.incompressible.differential_operators import DifferentialOperators
-from sphear.schemes.incompressible.free_surface import wetted
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.region import region, walls_of
 from sphear.schemes.incompressible.settings import Incompressible
@@ -50,7 +49,7 @@ class Discretisation:
         self.count = len(problem.positions)
         self.region = region(problem)
         self.domain = problem.window if any(problem.periodic) else None
-        self.walls = walls_of(problem, settings, kernel, 2 if viscous.of_all else 1)
+        self.walls = walls_of(problem, settings, kernel, 2 if viscous.of_all else 1, threads)
         self.lattice_sum = self._lattice_sum()
 
     def _lattice_sum(self) -> float:
@@ -69,19 +68,17 @@ class Discretisation:
             distance: (N,), from walls, if that is known.
             together: sums over places and volumes that will all be asked for, see `ParticleSums`.
         """
-        particles = self.particles(x, together)
-        if self.walls is not None and self.region is not None and distance is None:
+        if self.region is not None and distance is None:
             distance = self.region.distance(x)
-        return DifferentialOperators(self, particles, distance)
+        return DifferentialOperators(self, self.particles(x, distance, together), distance)
 
-    def particles(self, x: Array, together: Sequence[Any] = ()) -> ParticleSums:
-        """The particles at x (N, d) and those of walls; `together` as for `at`."""
+    def particles(self, x: Array, distance: Array | None, together: Sequence[Any] = ()) -> ParticleSums:
+        """The particles of fluid and walls; arguments as for `at`, the distance known if there are walls."""
         walls, dx = self.walls, self.problem.spacing
         everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
         volume = np.full(len(everything), dx ** x.shape[1])
         if walls is not None:
             volume[self.count : self.count + walls.on_wall] = 0.0  # they have a pressure only
-            if self.problem.free_surface:
-                fluid = x if self.domain is None else self.domain.with_images(x, walls.reach)[0]
-                volume[self.count :] *= wetted(walls.images, fluid, dx)
+            if self.problem.free_surface and distance is not None:
+                volume[self.count :] *= walls.wetted(x, distance)
         return ParticleSums(everything, self.count, self.kernel, volume, self.domain, self.threads, together=together)

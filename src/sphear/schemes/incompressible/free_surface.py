@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from sphear.corrections import NoCorrection
 from sphear.errors import SphearError
-from sphear.interactions.free_surface import ConcentrationMoments, NearSurface, Umbrella
+from sphear.interactions.free_surface import ConcentrationMoments, Umbrella
 from sphear.kernels import Kernel
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.schemes.incompressible.settings import Incompressible
@@ -92,14 +92,23 @@ def surface(particles: ParticleSums, spacing: float, lattice_sum: float) -> Surf
     inward = slope / np.maximum(np.linalg.norm(slope, axis=1, keepdims=True), 1e-300)
     normals = np.zeros((particles.total, dimension))
     normals[:count] = inward
-    under = particles.sum(Umbrella(kernel, LENGTH * spacing), None, inward=normals)[:, 0]
-    on = ((concentration < INNER) & (under < 0.5)) | (concentration < SPRAY)
-    flags = np.zeros(particles.total)
-    flags[:count] = on
-    near = on | (particles.sum(NearSurface(kernel), None, surface=flags)[:, 0] > 0)
+    thin = concentration < INNER
+    under = particles.of(thin).sum(Umbrella(kernel, LENGTH * spacing), None, inward=normals)[:, 0]
+    on = (thin & (under < 0.5)) | (concentration < SPRAY)
+    near = _with_neighbours(particles, on)
     alone = total - particles.fields["volume"][:count] * kernel.value_at_zero(dimension) < NOTHING
-    rough = near & (np.linalg.eigvalsh(moment)[:, 0] < ROUGH)
+    rough = near.copy()
+    rough[near] = np.linalg.eigvalsh(moment[near])[:, 0] < ROUGH
     return Surface(on, near, alone, rough, concentration, slope, inward, moment, _depth(particles, on, near, spacing))
+
+
+def _with_neighbours(particles: ParticleSums, chosen: Array) -> Array:
+    """(N,), True for the chosen particles (N,) and those that have one of them as a neighbour."""
+    found, listed = chosen.copy(), particles.neighbours.of(chosen)
+    for chunk in listed.chunks:
+        neighbours = listed.source[chunk.neighbour[: chunk.pairs]]
+        found[neighbours[neighbours < particles.count]] = True
+    return found
 
 
 def _depth(particles: ParticleSums, on: Array, near: Array, spacing: float) -> Array:
@@ -119,8 +128,15 @@ def wetted(points: Array, fluid: Array, spacing: float) -> Array:
     """(W,), the share of points that is in the fluid, from 0, a spacing from the nearest particle, to 1, at 0.7.
 
     A wall particle whose mirror point is outside the fluid stands for no fluid, and nobody may count it.
+
+    Args:
+        points: (W, d), mirror points.
+        fluid: (any, d), the particles near them, and their images.
+        spacing: of the particles.
     """
-    distance = np.asarray(cKDTree(fluid).query(points)[0]) / spacing
+    if not len(fluid):
+        return np.zeros(len(points))
+    distance = np.asarray(cKDTree(fluid).query(points, distance_upper_bound=DRY * spacing)[0]) / spacing
     result: Array = np.clip((DRY - distance) / (DRY - WET), 0.0, 1.0)
     return result
 

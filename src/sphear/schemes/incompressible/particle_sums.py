@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -80,6 +81,13 @@ class ParticleSums:
         self._prepared: dict[Any, Prepared] = {}
         self._sums: dict[Any, Array] = {}
 
+    def of(self, some: Array) -> ParticleSums:
+        """The same for some of the N particles only, those that are True in `some`, (N,); sums of others are zero."""
+        result = copy(self)
+        result.neighbours = self.neighbours.of(some)
+        result._together, result._prepared, result._sums = (), {}, {}
+        return result
+
     def uniform(self, **numbers: float) -> None:
         """Give all particles fields that are the same everywhere, if they have none of the name."""
         for name, number in numbers.items():
@@ -146,7 +154,8 @@ class ParticleSums:
             return self._of_together(interaction)
         own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
         sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own, packing=self._packing)
-        out = np.empty((self.count, sweep.outputs))
+        some = self.neighbours.count < self.count
+        out = (np.zeros if some else np.empty)((self.count, sweep.outputs))
 
         def add(item: tuple[int, Chunk]) -> None:
             number, chunk = item

@@ -80,7 +80,9 @@ def between_walls(box: Box) -> Shape | None:
     return Rectangle((left, lower), (right, upper), velocities=velocities, slips=free)
 
 
-def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, supports: int) -> Walls | None:
+def walls_of(
+    problem: Problem, settings: Incompressible, kernel: Kernel, supports: int, threads: int = 1
+) -> Walls | None:
     """The wall particles, as deep as the kernel reaches; None where there are none.
 
     Args:
@@ -88,6 +90,7 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
         settings: what is chosen of it.
         kernel: with its smoothing length.
         supports: how many supports of the kernel a sum reaches.
+        threads: to compute on.
 
     Raises:
         SphearError: there is no room for the fluid.
@@ -104,7 +107,7 @@ def walls_of(problem: Problem, settings: Incompressible, kernel: Kernel, support
     behind = model.wall_particles(behind, dx, window)
     domain = window if any(problem.periodic) else None
     turning, bent = accelerations(shape, behind, dx, window), curvatures(shape, behind, dx, window)
-    return Walls(behind, dx, kernel, domain, model, problem.free_surface, turning, bent)
+    return Walls(behind, dx, kernel, domain, model, problem.free_surface, turning, bent, threads)
 
 
 def curvatures(shape: Shape, behind: Dummies, spacing: float, window: Domain) -> Array:

@@ -43,7 +43,7 @@ def missing_weights(
         moments: of the Laplacian.
         preparation: that it needs.
     """
-    sums = particles.sum(moments, preparation)
+    sums = particles.of(surface.near).sum(moments, preparation)
     share = np.maximum(1.0 / surface.concentration - 1.0, 0.0)
     sheet = np.where(surface.on, 2.0 * surface.depth * sums[:, 0] * share, 0.0)
     first = np.linalg.norm(sums[:, 1:], axis=1)
@@ -52,7 +52,7 @@ def missing_weights(
 
 
 def surface_gradient(particles: ParticleSums, surface: Surface, pressures: Array) -> Array:
-    """(N, d), grad p with the missing neighbours, to be taken near the surface.
+    """(N, d), grad p with the missing neighbours near the surface; elsewhere it means nothing.
 
         grad p_i = sum_j V_j (p_j - p_i) grad W_ij + k_i p_i sum_j V_j grad W_ij
         k_i = (1 - n . M_i n) / (depth_i |sum_j V_j grad W_ij|),  M_i = sum_j V_j grad W_ij (x) (r_j - r_i)
@@ -66,7 +66,8 @@ def surface_gradient(particles: ParticleSums, surface: Surface, pressures: Array
         pressures: (P,), of both.
     """
     count = particles.count
-    plain = particles.sum(Gradient(particles.kernel, NoCorrection(), True), None, values=pressures[:, None])
+    near = particles.of(surface.near)
+    plain = near.sum(Gradient(particles.kernel, NoCorrection(), True), None, values=pressures[:, None])
     short = 1.0 - np.einsum("na,nab,nb->n", surface.inward, surface.moment, surface.inward)
     length = surface.depth * np.linalg.norm(surface.slope, axis=1)
     fall = np.clip(short / np.maximum(length, 1e-300), LEAST, MOST)

@@ -14,11 +14,14 @@ from sphear.boundaries.models import WallModel
 from sphear.boundaries.models.wall_fit import WallFit, WallWeights
 from sphear.boundaries.shapes import Dummies
 from sphear.boundaries.shapes.base import slipping
+from sphear.engine.formula import Interaction
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import LEAST_PIVOT, PointFit, PointWeights
 from sphear.kernels import Kernel
 from sphear.neighbours import Domain
-from sphear.schemes.incompressible.particle_sums import ParticleSums
+from sphear.neighbours.points import sorted_particles
+from sphear.schemes.incompressible.free_surface import wetted
+from sphear.schemes.incompressible.wall_rows import FittedRows
 
 Array = np.ndarray[Any, Any]
 
@@ -50,6 +53,7 @@ class Walls:
         free_surface: the fluid ends at its own surface too: fits that would reach far beyond it are avoided.
         accelerations: (W, d), of the walls at the feet, which have some where they turn; None is none.
         curvatures: (W,), of the walls at the feet, positive around fluid; None is none.
+        threads: to compute on.
     """
 
     def __init__(
@@ -62,8 +66,10 @@ class Walls:
         free_surface: bool = False,
         accelerations: Array | None = None,
         curvatures: Array | None = None,
+        threads: int = 1,
     ) -> None:
         self.dummies, self.spacing, self.domain, self.model = dummies, spacing, domain, model
+        self.threads = threads
         self.count = len(dummies.positions)
         self.on_wall = int((dummies.depths <= 0).sum())
         self.depths, self.normals, self.slips = dummies.depths, dummies.normals, slipping(dummies.velocities)
@@ -72,53 +78,48 @@ class Walls:
         self.curvatures = np.zeros(self.count) if curvatures is None else curvatures
         self.feet = dummies.feet
         self.images = self.feet + dummies.depths[:, None] * dummies.normals
-        self.least_pivot = THIN if free_surface else LEAST_PIVOT
         self.sampling = model.sampling(dummies, kernel, spacing)
-        self._continuation_kernel = type(kernel)(CONTINUATION_REACH * spacing / kernel.support)
-        self._normal_kernel = type(kernel)(NORMAL_REACH * spacing / kernel.support)
+        before = type(kernel)(CONTINUATION_REACH * spacing / kernel.support)
         deepest = float(dummies.depths.max(initial=0.0))
-        self.reach = max(deepest + self.sampling.kernel.radius, self._continuation_kernel.radius)
+        self.reach = max(deepest + self.sampling.kernel.radius, before.radius)
+        self._support = max(self.sampling.kernel.radius, before.radius)
+        points, around, order = self.sampling
+        fit = PointFit(around, order, THIN if free_surface else LEAST_PIVOT)
+        self._mirrored = self._rows(points, around.radius, fit, PointWeights(around))
+        self._continued = None
+        if (curve := model.curve) is not None:
+            self._continued = self._rows(self.feet, before.radius, WallFit(before, curve), WallWeights(before, curve))
+        along = type(kernel)(NORMAL_REACH * spacing / kernel.support)
+        on = dummies.positions[: self.on_wall]
+        self._derivatives = self._rows(on, along.radius, NormalFit(along), NormalWeights(along), coincident=False)
 
     def interpolation(self, positions: Array, distances: Array) -> WallInterpolation:
         """The fields of wall particles from fluid at `positions` (N, d), so far from the walls (N,)."""
-        near = np.flatnonzero(distances < self.reach)
-        points, kernel, order = self.sampling
-        fit = PointFit(kernel, order, self.least_pivot)
-        mirrored = self._matrix(points, positions, near, kernel, fit, PointWeights(kernel))
-        if (curve := self.model.curve) is None:
+        near = np.flatnonzero(distances < self.reach).astype(np.int32)
+        around = sorted_particles(positions[near], self._support, self.domain)
+        fields = {"volume": self._volume(near), "depth": distances[near]}
+        mirrored = self._mirrored.matrix(around, fields, near, len(positions), self.threads)
+        if self._continued is None:
             return WallInterpolation(mirrored, None)
-        kernel = self._continuation_kernel
-        fields = {
-            "depth": np.concatenate((self.depths, distances[near])),
-            "normal": np.concatenate((self.normals, np.zeros((len(near), positions.shape[1])))),
-        }
-        before = self._matrix(
-            self.feet, positions, near, kernel, WallFit(kernel, curve), WallWeights(kernel, curve), fields
-        )
-        return WallInterpolation(mirrored, before)
+        continued = self._continued.matrix(around, fields, near, len(positions), self.threads)
+        return WallInterpolation(mirrored, continued)
 
-    def _matrix(
-        self,
-        points: Array,
-        positions: Array,
-        near: Array,
-        kernel: Kernel,
-        fit: Any,
-        weights: Any,
-        fields: dict[str, Array] | None = None,
-    ) -> csr_array:
-        """One row (N,) a point, from the particles near walls; points have no volume, so they are no neighbours."""
-        everything = np.concatenate((points, positions[near]))
-        volume = np.full(len(everything), self.spacing ** positions.shape[1])
-        volume[: len(points)] = 0.0
-        around = ParticleSums(everything, len(points), kernel, volume, self.domain, 1, coincident=True)
-        around.fields.update(fields or {})
-        column = np.concatenate((np.zeros(len(points), np.int32), near.astype(np.int32)))
-        matrix = around.matrix(weights, fit, column, len(positions))
-        matrix.eliminate_zeros()  # of points that are neighbours of each other
-        back = np.empty(len(points), np.int32)
-        back[around.neighbours.rows] = np.arange(len(points), dtype=np.int32)
-        return matrix[back]
+    def wetted(self, positions: Array, distances: Array) -> Array:
+        """(W,), the share of wall particles that stand for fluid at `positions` (N, d), so far from walls (N,)."""
+        near = positions[distances < self.reach]
+        fluid = near if self.domain is None else self.domain.with_images(near, self.reach)[0]
+        return wetted(self.images, fluid, self.spacing)
+
+    def _volume(self, particles: Array) -> Array:
+        return np.full(len(particles), self.spacing ** self.normals.shape[1])
+
+    def _rows(
+        self, points: Array, support: float, fit: Interaction, weights: Interaction, coincident: bool = True
+    ) -> FittedRows:
+        count = len(points)
+        fields = {"volume": np.zeros(count), "depth": self.depths[:count], "normal": self.normals[:count]}
+        points = points if self.domain is None else self.domain.wrapped(points)
+        return FittedRows(points, support, fit, weights, fields, coincident)
 
     def continued(self, interpolation: WallInterpolation, velocities: Array) -> Array:
         """(N + W, d): the fluid's velocities, and behind walls those that give the wall's velocity on it.
@@ -184,15 +185,8 @@ class Walls:
             column: (N + S,), of each particle, those on walls last.
             columns: their number.
         """
-        kernel = self._normal_kernel
         on = self.dummies.positions[: self.on_wall]
-        points = np.concatenate((on, positions))
-        around = ParticleSums(
-            points, len(on), kernel, np.full(len(points), self.spacing ** positions.shape[1]), self.domain, 1
-        )
-        around.fields["normal"] = np.concatenate((self.normals[: len(on)], np.zeros_like(positions)))
-        order = np.concatenate((column[len(positions) :], column[: len(positions)])).astype(np.int32)
-        matrix = around.matrix(NormalWeights(kernel), NormalFit(kernel), order, columns)
-        back = np.empty(len(on), np.int32)
-        back[around.neighbours.rows] = np.arange(len(on), dtype=np.int32)
-        return matrix[back]
+        everything = np.concatenate((positions, on))
+        around = sorted_particles(everything, self._derivatives.support, self.domain)
+        volume = self._volume(everything)
+        return self._derivatives.matrix(around, {"volume": volume}, column, columns, self.threads)
