@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from sphear.engine.cache.machine_code import MachineCode
-from sphear.engine.interrupts import deferred_signals
+from sphear.engine.interrupts import blocked_signals, deferred_signals
 from tests.engine.cached import Cache, cache
 
 __all__ = ["cache"]
@@ -52,6 +52,20 @@ def test_ctrl_c_waits_for_the_end_of_the_block() -> None:
         hit_while_deferred(signal.SIGINT, reached)
     assert reached == [1, 2]
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def hit_while_blocked(reached: list[int]) -> None:
+    with blocked_signals():
+        signal.raise_signal(signal.SIGINT)  # of this thread: the test's process has others
+        reached.append(1)
+
+
+def test_files_are_written_to_their_end() -> None:
+    reached: list[int] = []
+    with pytest.raises(KeyboardInterrupt):
+        hit_while_blocked(reached)
+    assert reached == [1]
+    assert not signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])

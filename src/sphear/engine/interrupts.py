@@ -14,8 +14,21 @@ from types import FrameType
 from typing import Any
 
 # Ctrl-C last: it raises, and the handlers before it are back in their places then
-_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP", "SIGINT") if hasattr(signal, name)]
+SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP", "SIGINT") if hasattr(signal, name)]
 _waiting = False
+
+
+@contextmanager
+def blocked_signals() -> Iterator[None]:
+    """Hold back SIGTERM, SIGHUP and SIGINT for the block, also where they end the process without a handler."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager
@@ -33,7 +46,7 @@ def deferred_signals() -> Iterator[None]:
     former: dict[int, Any] = {}
     try:
         _waiting = True
-        for number in _SIGNALS:
+        for number in SIGNALS:
             handler = signal.getsignal(number)
             if callable(handler):
                 former[number] = handler

@@ -23,7 +23,7 @@ MOST_THREADS = 1024
 def thread_count(threads: int | None, particles: int) -> int:
     """The number of threads to use: as asked, or all processors where there is enough work for them."""
     if threads is None:
-        return max(1, min(_processors(), particles // WORTH_A_THREAD))
+        return max(1, min(processors(), particles // WORTH_A_THREAD))
     if not isinstance(threads, Integral) or threads < 1:
         raise SphearError(f"threads must be a whole number of at least 1, not {quoted(threads)}")
     if threads > MOST_THREADS:
@@ -31,7 +31,8 @@ def thread_count(threads: int | None, particles: int) -> int:
     return int(threads)
 
 
-def _processors() -> int:
+def processors() -> int:
+    """The number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -127,7 +127,7 @@ def _attempt(
     *,
     robust: bool,
 ) -> tuple[KrylovResult, float, float]:
-    """What a method comes to, its residual's length, and the mean of A p."""
+    """The result of a method, its residual's length, and the mean of A p."""
     inverse = preconditioner.build(system)
     iterations = 0
     for _ in range(REPEATS):

@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from sphear.engine.cache.files import is_private, remove_stale, write
+from sphear.engine.interrupts import blocked_signals
 from sphear.engine.notices import notices
 
 
@@ -87,7 +88,8 @@ def keep(path: Path, content: bytes) -> None:
     """Write a file of the cache if that is possible; say once if it is not."""
     _tidy(path.parent)
     try:
-        write(path, content)
+        with blocked_signals():
+            write(path, content)
     except OSError as error:
         notices.warn(
             f"compiled code cannot be kept in {path.parent} ({error.strerror or error}): what is missing there is"

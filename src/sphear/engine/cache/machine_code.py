@@ -7,10 +7,11 @@ wrong with it, the function is compiled again.
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import pickle
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -20,11 +21,15 @@ from numba.core.compiler import CompileResult
 from numba.core.registry import CPUDispatcher
 from numba.core.serialize import dumps
 
+from sphear.engine.cache.beside import compiling_begins
 from sphear.engine.cache.files import read, sealed, unsealed
 from sphear.engine.cache.folder import cache_directory, keep
 from sphear.engine.cache.stamp import source_stamp, stamp
 from sphear.engine.interrupts import deferred_signals
 from sphear.engine.notices import notices
+
+# nobody hands these functions to C
+_ALWAYS = {"nopython": True, "boundscheck": None, "no_cfunc_wrapper": True}
 
 
 class MachineCode(NullCache):
@@ -53,6 +58,7 @@ class MachineCode(NullCache):
             if content is not None:
                 with suppress(Exception):  # whatever it is, compiling anew mends it
                     return CompileResult._rebuild(target_context, *pickle.loads(content))
+        compiling_begins()
         notices.compiling(None if path is None else path.parent)
         return None
 
@@ -92,8 +98,21 @@ class Dispatcher(CPUDispatcher):
 
     def compile(self, sig: Any) -> Any:
         """Load or compile a signature; Ctrl-C is heard when that is done."""
-        with deferred_signals():
+        with deferred_signals(), _uncollected():
             return super().compile(sig)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Let no garbage be looked for: the compiler makes so many objects that it would take a sixth of the time."""
+    if not gc.isenabled():
+        yield
+        return
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
 
 
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
@@ -102,7 +121,7 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
     def decorate(function: Callable[..., Any]) -> Any:
         if numba.config.DISABLE_JIT:
             return function
-        dispatcher = Dispatcher(function, targetoptions={"nopython": True, "boundscheck": None, **options})
+        dispatcher = Dispatcher(function, targetoptions={**_ALWAYS, **options})
         dispatcher.enable_caching()
         return dispatcher
 
@@ -112,3 +131,11 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
 def compiled(function: Callable[..., Any]) -> Any:
     """A function of this package, compiled without fast-math; it lets go of the interpreter's lock."""
     return njit(nogil=True)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """A compiled function whose source is put into those that call it and compiled with them.
+
+    It is not compiled by itself as well, unless Python calls it: `sorted_cells` takes 3 s in place of 5.
+    """
+    return njit(nogil=True, inline="always")(function)

@@ -68,15 +68,17 @@ class Discretisation:
             distance: (N,), from walls, if that is known.
             together: sums over places and volumes that will all be asked for, see `ParticleSums`.
         """
+        if self.region is not None and distance is None:
+            distance = self.region.distance(x)
+        return DifferentialOperators(self, self.particles(x, distance, together), distance)
+
+    def particles(self, x: Array, distance: Array | None, together: Sequence[Any] = ()) -> ParticleSums:
+        """The particles of fluid and walls; arguments as for `at`, the distance known if there are walls."""
         walls, dx = self.walls, self.problem.spacing
         everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
         volume = np.full(len(everything), dx ** x.shape[1])
-        if walls is not None and self.region is not None:
-            distance = self.region.distance(x) if distance is None else distance
+        if walls is not None:
             volume[self.count : self.count + walls.on_wall] = 0.0  # they have a pressure only
-            if self.problem.free_surface:
+            if self.problem.free_surface and distance is not None:
                 volume[self.count :] *= walls.wetted(x, distance)
-        particles = ParticleSums(
-            everything, self.count, self.kernel, volume, self.domain, self.threads, together=together
-        )
-        return DifferentialOperators(self, particles, distance)
+        return ParticleSums(everything, self.count, self.kernel, volume, self.domain, self.threads, together=together)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from sphear.engine.cache import compiled_beside
 from sphear.engine.memory import keep_freed_memory
 from sphear.engine.threads import thread_count
 from sphear.errors import SphearError
@@ -15,6 +16,7 @@ from sphear.kernels import Kernel
 from sphear.operators import arguments
 from sphear.schemes.base import FlowFailure, check_kernel, check_start, check_state, chosen_time_step, described
 from sphear.schemes.energy import EnergyBudget
+from sphear.schemes.incompressible.compiling import parts
 from sphear.schemes.incompressible.coupled import coupled
 from sphear.schemes.incompressible.diagnostics import diagnostics
 from sphear.schemes.incompressible.discretisation import Discretisation
@@ -162,7 +164,7 @@ class IncompressibleFlow:
     def _compile(self) -> None:
         """Make a step and take it back."""
         state = self.state()
-        with suppress(SphearError), np.errstate(all="ignore"):
+        with compiled_beside(parts(self)), suppress(SphearError), np.errstate(all="ignore"):
             step(self)
         self.restore(state)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from sphear.engine.backends.cpu.driver import advance
 from sphear.engine.backends.cpu.memory import Memory
 from sphear.engine.backends.cpu.particle_text import Field
 from sphear.engine.backends.cpu.views import address_of
+from sphear.engine.cache import compiled_beside
 from sphear.engine.stages import Stage
 
 Array = np.ndarray[Any, Any]
@@ -88,7 +90,9 @@ class Program:
     def compile(self) -> None:
         """Compile what is not compiled yet; the first run does, too."""
         if not len(self._addresses):
-            self._addresses = np.array([address_of(call.code) for call in self._calls])
+            codes = [call.code for call in self._calls]
+            with compiled_beside([partial(address_of, code) for code in reversed(codes)]):
+                self._addresses = np.array([address_of(code) for code in codes])
             self._tables = self._addressed()
             advance(self._addresses, self._tables, self._memory.sizes, 0, 0, 0, 0)
 
