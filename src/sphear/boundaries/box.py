@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from sphear.checked import numbers
-from sphear.engine.cache import compiled
+from sphear.engine.cache import compiled, inlined
 from sphear.errors import SphearError, quoted
 
 Array = np.ndarray[Any, Any]
@@ -132,7 +132,7 @@ class Box:
         return np.array(self.lower, np.float64), np.array(self.upper, np.float64), kinds, velocities
 
 
-@compiled
+@inlined
 def fill_images(x, lower, upper, kinds, reach, on_wall, positions, source, wall):  # type: ignore[no-untyped-def]
     """Write the entries of `with_images`; their number, or -1 if the arrays have no room for all."""
     count, dimension = x.shape

@@ -8,7 +8,7 @@ from numba.extending import register_jitable
 from sphear.boundaries.box import ON_WALL
 from sphear.boundaries.continuations import Mirror, Parabola
 from sphear.boundaries.side_fits import node_along
-from sphear.engine.cache import compiled
+from sphear.engine.cache import compiled, inlined
 
 NODE_SPACING = 4.0  # of the nodes along a wall, in particle spacings
 
@@ -16,7 +16,7 @@ reflection = register_jitable(Mirror.behind)
 continued = register_jitable(Parabola.behind)
 
 
-@compiled
+@inlined
 def wall_nodes(lower, upper, kinds, axis, spacing):  # type: ignore[no-untyped-def]
     """The axis along which the continuation varies on the walls of an axis, -1 if none, and the number of nodes."""
     for along in range(len(kinds)):

@@ -15,7 +15,7 @@ from numba.extending import overload, register_jitable
 
 from sphear.algebra import where_less
 from sphear.boundaries.continuations import GlobalParabola, Line, Parabola, determinant, inverse, solved
-from sphear.engine.cache import compiled
+from sphear.engine.cache import compiled, inlined
 
 PARABOLA = 3.0  # spacings from the wall within which particles decide on the parabola: three rows of them
 
@@ -35,7 +35,7 @@ excess = register_jitable(GlobalParabola.excess)
 between_walls = register_jitable(GlobalParabola.coefficients)
 
 
-@compiled
+@inlined
 def node_along(place, along, lower, upper, nodes):  # type: ignore[no-untyped-def]
     """The node before a place, and the share of the one after it."""
     if along < 0 or nodes == 1:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from sphear.engine.cache import compiled
+from sphear.engine.cache import compiled, inlined
 
 REACH = 2  # cells of half a support: fewer candidates than whole ones, see benchmarks/lanes.py
 FARTHEST = 1e15  # cells: beyond, neighbouring floating-point numbers are no neighbours
 PADDING = 8  # room behind the last entry, so that eight candidates can always be read at once
 
 
-@compiled
+@inlined
 def fold(along, count):  # type: ignore[no-untyped-def]
     """The cell 0 ... count - 1 of a place given in cells, on an axis that is folded like a fan.
 
@@ -22,7 +22,7 @@ def fold(along, count):  # type: ignore[no-untyped-def]
     return min(cell, 2 * count - 1 - cell)
 
 
-@compiled
+@inlined
 def grid_counts(extent, inverse, entries):  # type: ignore[no-untyped-def]
     """The cells along each axis: as many as the entries extend over, but not many more in all than entries.
 
@@ -44,7 +44,7 @@ def grid_counts(extent, inverse, entries):  # type: ignore[no-untyped-def]
         longest *= 0.8
 
 
-@compiled
+@inlined
 def grid(positions, support):  # type: ignore[no-untyped-def]
     """The lower corner and extent of the box around entries (E, d), one over the size of a cell, cells along axes."""
     entries, dimension = positions.shape
@@ -59,7 +59,7 @@ def grid(positions, support):  # type: ignore[no-untyped-def]
     return lower, extent, inverse, grid_counts(extent, inverse, entries)
 
 
-@compiled
+@inlined
 def cell_total(counts):  # type: ignore[no-untyped-def]
     """All cells of a grid with `counts` along the axes, those of its empty border among them."""
     cells = np.int64(1)
@@ -68,7 +68,7 @@ def cell_total(counts):  # type: ignore[no-untyped-def]
     return cells
 
 
-@compiled
+@inlined
 def fill_offsets(counts, offsets):  # type: ignore[no-untyped-def]
     """Write the (5^(d - 1),) offsets to the rows of cells within reach of a cell."""
     number, stride = 1, counts[0] + 2 * REACH
@@ -81,7 +81,7 @@ def fill_offsets(counts, offsets):  # type: ignore[no-untyped-def]
         stride *= counts[axis] + 2 * REACH
 
 
-@compiled
+@inlined
 def number_cells(  # type: ignore[no-untyped-def]
     positions, begin, end, lower, extent, inverse, counts, unsorted, found
 ):
@@ -112,7 +112,7 @@ def number_cells(  # type: ignore[no-untyped-def]
         found[number] += 1
 
 
-@compiled
+@inlined
 def first_places(found, start):  # type: ignore[no-untyped-def]
     """Write the first entry of each cell to `start`; in place of how many a part has `found` in it, its first there.
 
@@ -130,7 +130,7 @@ def first_places(found, start):  # type: ignore[no-untyped-def]
     start[found.shape[1]] = place
 
 
-@compiled
+@inlined
 def place_entries(  # type: ignore[no-untyped-def]
     positions, begin, end, unsorted, following, coordinates, order, cell
 ):
@@ -145,7 +145,7 @@ def place_entries(  # type: ignore[no-untyped-def]
             coordinates[axis, place] = positions[entry, axis]
 
 
-@compiled
+@inlined
 def fill_cells(  # type: ignore[no-untyped-def]
     positions, lower, extent, inverse, counts, coordinates, order, cell, start, unsorted, following
 ):

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 import numpy as np
 from scipy.sparse import csr_array, csr_matrix
 
-from sphear.engine.cache import compiled
+from sphear.engine.cache import compiled, inlined
 
 Array = np.ndarray[Any, Any]
 Sparse = csr_matrix[Any] | csr_array[Any, tuple[int, int]]
@@ -95,7 +95,7 @@ def _first_fault(first, column, entry, start, singular, rounding):  # type: igno
     return len(first) - 1, FINE, neutral
 
 
-@compiled
+@inlined
 def square_distance(positions, i, j, periods):  # type: ignore[no-untyped-def]
     """|r_j - r_i|^2 of positions (n, d), by the shortest way along axes that repeat."""
     square = 0.0

@@ -131,3 +131,11 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:
 def compiled(function: Callable[..., Any]) -> Any:
     """A function of this package, compiled without fast-math; it lets go of the interpreter's lock."""
     return njit(nogil=True)(function)
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """A compiled function whose source is put into those that call it and compiled with them.
+
+    It is not compiled by itself as well, unless Python calls it: `sorted_cells` takes 3 s in place of 5.
+    """
+    return njit(nogil=True, inline="always")(function)

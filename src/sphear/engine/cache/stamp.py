@@ -15,7 +15,9 @@ import numba
 PACKAGE = Path(__file__).parents[2]
 
 # functions that are compiled, and those that say how something is
-_COMPILED = re.compile(rb"^[ \t]*@(compiled|njit|intrinsic|infer_global|lower_builtin|register_model)\b", re.MULTILINE)
+_COMPILED = re.compile(
+    rb"^[ \t]*@(compiled|inlined|njit|intrinsic|infer_global|lower_builtin|register_model)\b", re.MULTILINE
+)
 # of modules of the package, by whoever imports the module: not for types alone, nor within functions
 _IMPORT = re.compile(rf"^from {PACKAGE.name}(?:\.([\w.]+))? import (\([^)]*\)|[^\n#]*)".encode(), re.MULTILINE)
 
