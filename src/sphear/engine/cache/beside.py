@@ -28,7 +28,7 @@ MOST_PROCESSES = 7  # beside this one: each takes some 100 MB, and a flow has so
 MOST_JOBS = 256  # numbered by a byte each
 
 
-class _Helpers:
+class _Processes:
     """The processes that do jobs, made when something is compiled.
 
     Args:
@@ -94,7 +94,7 @@ def _work(jobs: Sequence[Job], queue: int) -> None:
         os._exit(0)
 
 
-_current: list[_Helpers] = []
+_current: list[_Processes] = []
 
 
 def _may_fork() -> bool:
@@ -121,16 +121,16 @@ def compiled_beside(jobs: Sequence[Job]) -> Iterator[None]:
     if _current or not jobs or not _may_fork():
         yield
         return
-    helpers = _Helpers(jobs)
-    _current.append(helpers)
+    processes = _Processes(jobs)
+    _current.append(processes)
     try:
         yield
     finally:
         _current.clear()
-        helpers.stop()
+        processes.stop()
 
 
 def compiling_begins() -> None:
     """Make the processes of the block, if there is one and they are not there yet."""
-    for helpers in _current:
-        helpers.start()
+    for processes in _current:
+        processes.start()
