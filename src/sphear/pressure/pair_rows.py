@@ -107,7 +107,7 @@ class PairRows:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """(n, n)."""
+        """The number of unknowns twice, (n, n)."""
         return self.unknowns, self.unknowns
 
     def times(self, vector: Array) -> Array:

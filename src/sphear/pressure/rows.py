@@ -43,7 +43,7 @@ class Rows(Protocol):
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """(n, n)."""
+        """The number of unknowns twice, (n, n)."""
 
     def times(self, vector: Array) -> Array:
         """The product (n,) with a vector (n,)."""
@@ -138,7 +138,7 @@ class CompressedRows:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """(n, n)."""
+        """The number of unknowns twice, (n, n)."""
         return self.matrix.shape
 
     def times(self, vector: Array) -> Array:
