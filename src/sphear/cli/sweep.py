@@ -49,12 +49,10 @@ def sweep(
     files = folder(out)
     assert files is not None
     store = Store(files.path / "runs")
-    last: list[SweepProgress] = []
     with progress(f"sweep of {case}") as tell:
         runs = plan(case, values, fixed, lambda planned, of: tell(f"{planned} of {of} runs planned"), preset=preset)
 
         def show(state: SweepProgress) -> None:
-            last[:] = [state]
             tell(str(state))
 
         try:
@@ -62,7 +60,7 @@ def sweep(
                 runs, store, workers=workers or 1, scheduler=scheduler, progress=show, say=print_sentence
             )
         except KeyboardInterrupt:
-            done = last[0].done if last else 0
+            done = sum(store.get(run) is not None for run in runs)  # some may not have been counted yet
             raise Interrupted(
                 f"interrupted; {done} of {len(runs)} runs are stored in {store.folder.path}, and the same command goes"
                 " on from there"

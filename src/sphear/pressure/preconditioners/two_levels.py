@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from sphear.pressure.preconditioners.base import Vector
 
 FULL = 0.25  # of a node, from which on it is not a hole; disordered particles leave more than half
-SAMPLE = 100  # rows that the coefficient of the Laplacian is measured from
+SAMPLE = 500  # rows that the coefficient of the Laplacian is measured from
 
 
 def two_levels(system: PressureSystem, coarsening: float, damping: float) -> Callable[[Vector], Vector]:

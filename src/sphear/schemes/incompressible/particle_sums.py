@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -24,7 +24,22 @@ from sphear.neighbours import Chunk, Domain, Neighbours
 from sphear.neighbours.sparse import sparse_rows
 
 Array = np.ndarray[Any, Any]
-Prepared = tuple[tuple[Shape, ...], list[Array]]  # the form of a particle's numbers, and these chunk by chunk
+
+
+class Prepared(NamedTuple):
+    """The numbers that are prepared of each particle.
+
+    own: their form, by the names that sums know them by.
+    chunks: the numbers of each chunk's rows, (rows, m).
+    column: the first of the preparation's own among them.
+    """
+
+    own: tuple[Shape, ...]
+    chunks: list[Array]
+    column: int
+
+
+NOTHING = Prepared((), [], 0)
 
 
 def in_box(positions: Array, domain: Domain | None) -> Array:
@@ -97,27 +112,27 @@ class ParticleSums:
     def prepared(self, preparation: Interaction) -> Prepared:
         """The form and the numbers, chunk by chunk, of what is prepared of each particle; summed up once."""
         if preparation not in self._prepared:
-            (sums, numbers), dimension = self._by_chunk(preparation), self.neighbours.dimension
-            if isinstance(preparation, NormalEquations):
-                numbers = on_threads(
-                    lambda moments: solved(preparation, moments, dimension), numbers, self.neighbours.threads
-                )
-            self._prepared[preparation] = (("prepared", form_of(preparation, dimension, sums)),), numbers
+            self._prepared[preparation] = self._prepare(preparation)
         return self._prepared[preparation]
 
-    def _by_chunk(self, interaction: Any) -> tuple[Any, list[Array]]:
-        """The form of a result, and its numbers for the rows of each chunk."""
-        if interaction not in self._together:
-            return self._chunks_of(interaction)
-        result, column = self._place(interaction)
-        size = len(list(leaves(result)))
-
-        def of(block: Array) -> Array:
-            numbers = np.empty((len(block), size))
-            copy_columns(block, column, np.arange(len(block), dtype=np.int32), numbers)
-            return numbers
-
-        return result, on_threads(of, self._blocks, self.neighbours.threads)
+    def _prepare(self, preparation: Interaction) -> Prepared:
+        if preparation in self._together:
+            sums, column = self._place(preparation)
+            chunks = self._blocks
+        else:
+            (sums, chunks), column = self._chunks_of(preparation), 0
+        if isinstance(preparation, NormalEquations):
+            dimension, size = self.neighbours.dimension, len(list(leaves(sums)))
+            chunks = on_threads(
+                lambda numbers: solved(
+                    preparation, np.ascontiguousarray(numbers[:, column : column + size]), dimension
+                ),
+                chunks,
+                self.neighbours.threads,
+            )
+            return Prepared((("prepared", form_of(preparation, dimension, sums)),), chunks, 0)
+        before: tuple[Shape, ...] = (("numbers_before", (0.0,) * column),) if column else ()
+        return Prepared((*before, ("prepared", sums)), chunks, column)
 
     def _place(self, interaction: Any) -> tuple[Any, int]:
         """The form of a result of those that are summed together, and its first column among theirs."""
@@ -143,16 +158,20 @@ class ParticleSums:
 
     def deficient(self, preparation: Preparation) -> Array:
         """The particles whose neighbours are too few or too uneven for a preparation."""
-        chunks = zip(self.neighbours.chunks, self.prepared(preparation)[1], strict=True)
+        prepared = self.prepared(preparation)
+        chunks = zip(self.neighbours.chunks, prepared.chunks, strict=True)
         return np.concatenate(
-            [self.neighbours.particles(chunk)[deficient(preparation, numbers)] for chunk, numbers in chunks]
+            [
+                self.neighbours.particles(chunk)[deficient(preparation, numbers[:, prepared.column :])]
+                for chunk, numbers in chunks
+            ]
         )
 
     def sum(self, interaction: Interaction, preparation: Any = None, **fields: Array) -> Array:
         """An interaction summed over the neighbours of each of the N particles, (N, numbers of its result)."""
         if interaction in self._together and not fields:
             return self._of_together(interaction)
-        own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
+        own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
         sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own, packing=self._packing)
         some = self.neighbours.count < self.count
         out = (np.zeros if some else np.empty)((self.count, sweep.outputs))
@@ -171,7 +190,7 @@ class ParticleSums:
             interaction: gives one weight a pair.
             preparation: what it knows of each of the N particles.
         """
-        own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
+        own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
         parts = chunk_weights(
             interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
         )
@@ -201,7 +220,7 @@ class ParticleSums:
             column: (P,), the column of each particle; None is its own number.
             columns: their number; 0 is P.
         """
-        own, numbers = self.prepared(preparation) if preparation is not None else ((), [])
+        own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
         weights = pair_weights(
             interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
         )
