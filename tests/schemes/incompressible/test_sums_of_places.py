@@ -10,6 +10,7 @@ import pytest
 from sphear import CORRECTIONS, VISCOSITY, Lind, WendlandC2
 from sphear.corrections import NoCorrection
 from sphear.engine import sweep
+from sphear.engine.uniform import WithUniform
 from sphear.interactions import Gradient, Rates
 from sphear.interactions.concentration import Concentration
 from sphear.interactions.joined import Joined
@@ -84,6 +85,7 @@ def test_a_step_asks_for_all_that_it_sums_together_and_for_nothing_twice(
 ) -> None:
     flow: IncompressibleFlow = make(**changes)
     flow.advance(1)
+    swept = [x.interaction if isinstance(x, WithUniform) else x for x in swept]
     joined = [x for x in swept if isinstance(x, Joined)]
     assert len(joined) == 1
     assert joined[0].parts == flow.together

@@ -104,7 +104,7 @@ class DifferentialOperators:
     @cached_property
     def _all(self) -> ParticleSums:
         """The particles of fluid and walls, all of which have sums."""
-        here, volume = self.particles, self.particles.fields["volume"]
+        here, volume = self.particles, self.particles.volume
         domain, threads = self.discretisation.domain, self.discretisation.threads
         return ParticleSums(here.positions, here.total, here.kernel, volume, domain, threads)
 

@@ -76,8 +76,10 @@ class Discretisation:
         """The particles of fluid and walls; arguments as for `at`, the distance known if there are walls."""
         walls, dx = self.walls, self.problem.spacing
         everything = x if walls is None else np.concatenate((x, walls.dummies.positions))
-        volume = np.full(len(everything), dx ** x.shape[1])
-        if walls is not None:
+        volume: Array | float = dx ** x.shape[1]
+        if self.problem.free_surface or (walls is not None and walls.on_wall):
+            volume = np.full(len(everything), volume)
+        if walls is not None and isinstance(volume, np.ndarray):
             volume[self.count : self.count + walls.on_wall] = 0.0  # they have a pressure only
             if self.problem.free_surface and distance is not None:
                 volume[self.count :] *= walls.wetted(x, distance)

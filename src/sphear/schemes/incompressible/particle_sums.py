@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from copy import copy
 from typing import Any, NamedTuple
 
@@ -17,6 +17,7 @@ from sphear.engine.records import copy_columns
 from sphear.engine.structure import leaves
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
+from sphear.engine.uniform import with_uniform
 from sphear.engine.weights import chunk_weights, pair_weights
 from sphear.interactions.joined import Joined
 from sphear.kernels import Kernel
@@ -63,7 +64,7 @@ class ParticleSums:
         positions: (P, d), those of the N particles first.
         count: N.
         kernel: with its smoothing length.
-        volume: (P,).
+        volume: (P,), or one number for all.
         domain: with its periodic axes; None is open space.
         threads: to compute on.
         coincident: whether a particle may lie where one that is only a neighbour does.
@@ -75,7 +76,7 @@ class ParticleSums:
         positions: Array,
         count: int,
         kernel: Kernel,
-        volume: Array,
+        volume: Array | float,
         domain: Domain | None,
         threads: int,
         coincident: bool = False,
@@ -88,7 +89,9 @@ class ParticleSums:
         self.domain = domain
         self.positions = positions
         self.kernel = kernel
-        self.fields: dict[str, Array] = {"volume": volume}
+        self.volume = volume
+        self.fields: dict[str, Array] = {"volume": volume} if isinstance(volume, np.ndarray) else {}
+        self._uniform: dict[str, float] = {} if isinstance(volume, np.ndarray) else {"volume": float(volume)}
         self._packing = Records(self.neighbours, self.fields)
         self._together = tuple(dict.fromkeys(together))
         self._places: dict[Any, tuple[Any, int]] = {}
@@ -107,7 +110,11 @@ class ParticleSums:
         """Give all particles fields that are the same everywhere, if they have none of the name."""
         for name, number in numbers.items():
             if name not in self.fields:
-                self.fields[name] = np.full(self.total, number)
+                self._uniform[name] = number
+
+    def _given(self, interaction: Any, fields: Iterable[str] = ()) -> Any:
+        """The interaction with all fields that are the same everywhere, but those that are given otherwise."""
+        return with_uniform(interaction, tuple(item for item in self._uniform.items() if item[0] not in fields))
 
     def prepared(self, preparation: Interaction) -> Prepared:
         """The form and the numbers, chunk by chunk, of what is prepared of each particle; summed up once."""
@@ -146,7 +153,7 @@ class ParticleSums:
 
     def _chunks_of(self, interaction: Any) -> tuple[Any, list[Array]]:
         """Sum up what depends on the particles alone: the form of a result, and the numbers of each chunk's rows."""
-        sweep = Sweep(interaction, self.neighbours, self.fields, packing=self._packing)
+        sweep = Sweep(self._given(interaction), self.neighbours, self.fields, packing=self._packing)
 
         def of(chunk: Chunk) -> Array:
             rows = chunk.end - chunk.begin
@@ -172,7 +179,8 @@ class ParticleSums:
         if interaction in self._together and not fields:
             return self._of_together(interaction)
         own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
-        sweep = Sweep(interaction, self.neighbours, {**self.fields, **fields}, own, packing=self._packing)
+        given = self._given(interaction, fields)
+        sweep = Sweep(given, self.neighbours, {**self.fields, **fields}, own, packing=self._packing)
         some = self.neighbours.count < self.count
         out = (np.zeros if some else np.empty)((self.count, sweep.outputs))
 
@@ -192,7 +200,7 @@ class ParticleSums:
         """
         own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
         parts = chunk_weights(
-            interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
+            self._given(interaction), self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
         )
         return [part[0] for part in parts]
 
@@ -222,6 +230,6 @@ class ParticleSums:
         """
         own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
         weights = pair_weights(
-            interaction, self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
+            self._given(interaction), self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
         )
         return sparse_rows(self.neighbours, weights[0], columns or self.total, column)

@@ -91,7 +91,7 @@ class PressureAssembly:
         behind = self._behind(interpolation, unknown, count)
         if not len(jump):
             jump = np.zeros(len(behind.starts) - 1)
-        positions, others = particles.positions[order], None
+        positions, others = np.take(particles.positions, order, axis=0), None
         if walls is not None and self.on_wall:
             others = walls.model.own_equations(walls, particles.positions[:count], unknown)
             positions = np.concatenate((positions, walls.dummies.positions[: self.on_wall]))
@@ -165,4 +165,4 @@ class PressureAssembly:
             fixed=np.zeros(count, np.bool_),
             outside=np.full(count, -shift),
         )
-        return self._system(rows, particles.positions[particles.neighbours.rows], False)
+        return self._system(rows, np.take(particles.positions, particles.neighbours.rows, axis=0), False)
