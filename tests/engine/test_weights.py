@@ -9,13 +9,14 @@ import pytest
 
 from sphear import Domain, Neighbours, WendlandC2
 from sphear.corrections import NoCorrection
-from sphear.engine.weights import pair_weights
+from sphear.engine.weights import chunk_weights
 from sphear.interactions import Laplacian
 from sphear.interactions.laplacian_weights import LaplacianWeights
 from sphear.neighbours.sparse import sparse_rows
 from sphear.schemes.incompressible.particle_sums import ParticleSums
 from sphear.viscosity import VISCOSITY
 from sphear.viscosity.morris import Morris
+from tests.pair_matrix import pair_matrix
 from tests.particles import Array, all_pairs, box, jittered
 
 KERNEL = WendlandC2(1.57)
@@ -38,7 +39,8 @@ def field(places: ParticleSums, components: int = 1) -> Array:
 
 def matrix(term: Any, where: ParticleSums) -> Any:
     """Row k is of particle `neighbours.rows[k]`."""
-    return where.matrix(LaplacianWeights(term, KERNEL, NoCorrection()), term.preparation(KERNEL, NoCorrection()))
+    weights = LaplacianWeights(term, KERNEL, NoCorrection())
+    return pair_matrix(where, weights, term.preparation(KERNEL, NoCorrection()))
 
 
 def laplacian(term: Any, where: ParticleSums, values: Array) -> Array:
@@ -88,9 +90,9 @@ def test_weights_come_in_the_order_of_the_list() -> None:
     positions = jittered((9, 9), 0.5, seed=3)
     neighbours = Neighbours(positions, KERNEL.radius, threads=2)
     fields = {"volume": np.ones(len(positions))}
-    found = pair_weights(LaplacianWeights(Morris(), KERNEL, NoCorrection()), neighbours, fields)
-    assert found.shape == (1, neighbours.pairs)
-    rows = sparse_rows(neighbours, found[0], len(positions))
+    found = chunk_weights(LaplacianWeights(Morris(), KERNEL, NoCorrection()), neighbours, fields)
+    assert np.concatenate(found, axis=1).shape == (1, neighbours.pairs)
+    rows = sparse_rows(neighbours.chunks, [part[0] for part in found], neighbours.source, len(positions))
     i, j, d = all_pairs(positions, KERNEL.radius)
     assert rows.nnz == len(i)
     far = 1.0 - np.sqrt((d**2).sum(axis=1)) / (2.0 * KERNEL.h)
@@ -112,7 +114,8 @@ def test_columns_may_be_renamed() -> None:
     column = np.random.default_rng(1).permutation(where.total).astype(np.int32)
     term = Morris()
     plain = matrix(term, where).toarray()
-    renamed = where.matrix(LaplacianWeights(term, KERNEL, NoCorrection()), None, column, where.total + 3).toarray()
+    weights = LaplacianWeights(term, KERNEL, NoCorrection())
+    renamed = pair_matrix(where, weights, None, column, where.total + 3).toarray()
     assert renamed.shape == (50, where.total + 3)
     np.testing.assert_array_equal(renamed[:, column], plain)
     assert not renamed[:, where.total :].any()

@@ -14,7 +14,10 @@ from sphear.boundaries.continuations import LeaningParabola, Line
 from sphear.boundaries.models.wall_fit import WallFit, WallWeights
 from sphear.interactions.normal_derivative import NormalFit, NormalWeights
 from sphear.interactions.point_fit import PointFit, PointWeights
+from sphear.neighbours.points import sorted_particles
 from sphear.schemes.incompressible.particle_sums import ParticleSums
+from sphear.schemes.incompressible.wall_rows import FittedRows
+from tests.pair_matrix import pair_matrix
 from tests.particles import Array, jittered
 
 KERNEL = WendlandC2(1.5)
@@ -23,10 +26,12 @@ SMALL = st.floats(-3.0, 3.0)
 
 def rows(points: Array, particles: Array, weights: Any, fit: Any, **fields: Array) -> Array:
     """The weights (points, particles) of a fit around points, which have no volume themselves."""
-    volume = np.concatenate((np.zeros(len(points)), np.ones(len(particles))))
-    where = ParticleSums(np.concatenate((points, particles)), len(points), KERNEL, volume, None, 1, coincident=True)
-    where.fields.update(fields)
-    matrix = where.matrix(weights, fit)[np.argsort(where.neighbours.rows)].toarray()
+    count, everything = len(points), len(points) + len(particles)
+    of_points = {"volume": np.zeros(count)} | {name: values[:count] for name, values in fields.items()}
+    of_particles = {"volume": np.ones(len(particles))} | {name: values[count:] for name, values in fields.items()}
+    around = sorted_particles(particles, KERNEL.radius, None)
+    fitted = FittedRows(points, KERNEL.radius, fit, weights, of_points)
+    matrix = fitted.matrix(around, of_particles, np.arange(count, everything), everything, 1).toarray()
     assert not matrix[:, : len(points)].any()
     return np.asarray(matrix[:, len(points) :])
 
@@ -132,7 +137,7 @@ def normal_rows(points: Array, normals: Array, particles: Array) -> Array:
     where = ParticleSums(everything, len(points), KERNEL, np.ones(len(everything)), None, 1)
     where.fields["normal"] = np.concatenate((normals, np.zeros_like(particles)))
     return np.asarray(
-        where.matrix(NormalWeights(KERNEL), NormalFit(KERNEL))[np.argsort(where.neighbours.rows)].toarray()
+        pair_matrix(where, NormalWeights(KERNEL), NormalFit(KERNEL))[np.argsort(where.neighbours.rows)].toarray()
     )
 
 

@@ -68,7 +68,8 @@ def test_others_may_lie_at_one_place_and_those_summed_for_may_not() -> None:
 def test_the_list_as_a_sparse_matrix(rows: int | None, threads: int) -> None:
     positions = jittered(COUNTS, 0.5, seed=4)
     neighbours = Neighbours(positions, KERNEL.radius, box(COUNTS), threads=threads, rows=rows)
-    ones = sparse_rows(neighbours, np.ones(neighbours.pairs), len(positions))
+    weights = [np.ones(chunk.pairs) for chunk in neighbours.chunks]
+    ones = sparse_rows(neighbours.chunks, weights, neighbours.source, len(positions))
     assert ones.shape == (neighbours.count, len(positions))
     i, j, _ = all_pairs(positions, KERNEL.radius, box(COUNTS))
     expected = np.zeros((len(positions), len(positions)))

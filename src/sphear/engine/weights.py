@@ -84,20 +84,6 @@ class PairWeights(Sweep):
         return values[:, : chunk.pairs]
 
 
-def pair_weights(
-    interaction: Any,
-    neighbours: Neighbours,
-    fields: Mapping[str, Array],
-    *,
-    own: tuple[Shape, ...] = (),
-    prepared: Sequence[Array] = (),
-    packing: Records | None = None,
-) -> Array:
-    """The weights of all pairs, (components, pairs), in the order of the chunks: see `chunk_weights`."""
-    parts = chunk_weights(interaction, neighbours, fields, own=own, prepared=prepared, packing=packing)
-    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
-
-
 def chunk_weights(
     interaction: Any,
     neighbours: Neighbours,

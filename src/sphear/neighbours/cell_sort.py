@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from sphear.engine.threads import on_threads
+from sphear.engine.threads import on_threads, ranges
 from sphear.neighbours.cells import (
     PADDING,
     REACH,
@@ -55,7 +55,7 @@ def cell_sort(positions: Array, support: float, threads: int = 1) -> CellSort:
     coordinates = np.empty((dimension, entries + PADDING))
     order, cell, unsorted = np.empty(entries, np.int32), np.empty(entries, np.int32), np.empty(entries, np.int32)
     start, found = np.empty(cells + 1, np.int64), np.empty((parts, cells), np.int64)
-    shares = [(k, entries * k // parts, entries * (k + 1) // parts) for k in range(parts)]
+    shares = [(part, *share) for part, share in enumerate(ranges(entries, parts))]
 
     def number(share: tuple[int, int, int]) -> None:
         part, begin, end = share

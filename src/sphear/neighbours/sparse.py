@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from sphear.neighbours.neighbours import Neighbours
+from sphear.neighbours.pair_list import Chunk
 
 Array = np.ndarray[Any, Any]
 
 
-def sparse_rows(neighbours: Neighbours, weights: Array, columns: int, column: Array | None = None) -> csr_array:
-    """The matrix whose row k holds the weights of the pairs of `neighbours.rows[k]`.
+def sparse_rows(chunks: Sequence[Chunk], weights: Sequence[Array], place: Array, columns: int) -> csr_array:
+    """The matrix whose row k holds the weights of the pairs of row k of a pair list.
 
     Args:
-        neighbours: the pairs.
-        weights: (pairs,), in the order of the chunks of the pair list.
+        chunks: the pair list.
+        weights: of each chunk's pairs, in the order of its list; what follows them is left out.
+        place: (E,), the column of each entry.
         columns: their number.
-        column: (N,), the column of each particle; None is its own number.
     """
-    chunks = neighbours.chunks
-    starts = np.zeros(neighbours.count + 1, np.int32)
-    listed = np.empty(len(weights), np.int32)
-    place = neighbours.source if column is None else column[neighbours.source].astype(np.int32, copy=False)
-    before = 0
+    rows = chunks[-1].end if chunks else 0
+    starts = np.zeros(rows + 1, np.int64)
     for chunk in chunks:
-        starts[chunk.begin + 1 : chunk.end + 1] = chunk.first[1:] + before
-        out = listed[before : before + chunk.pairs]
-        np.take(place, chunk.neighbour[: chunk.pairs], out=out, mode="clip")  # "raise" would go through a copy
-        before += chunk.pairs
-    return csr_array((weights, listed, starts), shape=(neighbours.count, columns))
+        starts[chunk.begin + 1 : chunk.end + 1] = starts[chunk.begin] + chunk.first[1:]
+    listed, numbers = np.empty(starts[-1], np.int32), np.empty(starts[-1])
+    for chunk, values in zip(chunks, weights, strict=True):
+        part = slice(starts[chunk.begin], starts[chunk.end])
+        listed[part], numbers[part] = place[chunk.neighbour[: chunk.pairs]], values[: chunk.pairs]
+    return csr_array((numbers, listed, starts), shape=(rows, columns))

@@ -16,6 +16,7 @@ from scipy.sparse import csr_array, dia_array, vstack
 
 from sphear.engine.threads import on_threads
 from sphear.neighbours import Chunk
+from sphear.neighbours.sparse import sparse_rows
 from sphear.pressure import pair_loops
 from sphear.pressure.rows import ALONE, FINE, NOT_NEUTRAL, Fault, fault_of, moments
 
@@ -153,13 +154,7 @@ class PairRows:
 
     def by_pairs(self) -> csr_array:
         """(R, n + W), the weights of pairs in compressed rows, wall particles after the unknowns."""
-        starts = np.zeros(self.rows + 1, np.int64)
-        for chunk in self.chunks:
-            starts[chunk.begin + 1 : chunk.end + 1] = starts[chunk.begin] + chunk.first[1:]
-        columns = [self.unknown[chunk.neighbour[: chunk.pairs]] for chunk in self.chunks]
-        weights = [weights[: chunk.pairs] for chunk, weights in zip(self.chunks, self.weights, strict=True)]
-        shape = (self.rows, self.unknowns + len(self._behind))
-        return csr_array((np.concatenate(weights), np.concatenate(columns), starts), shape=shape)
+        return sparse_rows(self.chunks, self.weights, self.unknown, self.unknowns + len(self._behind))
 
     def assembled(self) -> csr_array:
         """The matrix in compressed rows."""

@@ -47,9 +47,8 @@ def two_levels(system: PressureSystem, coarsening: float, damping: float) -> Cal
     if system.singular and share.min() > FULL:
         poisson = BoxPoisson(counts, size, system.periodic, 1.0 / factor, rows.threads)
     else:
-        penalty = np.zeros(len(share))
-        if not system.singular:
-            penalty[:] = transfer.deposit(np.maximum(-rows.times(ones), 0.0))
+        missing = np.zeros(system.unknowns) if system.singular else np.maximum(-rows.times(ones), 0.0)
+        penalty = transfer.deposit(missing).copy()
         multigrid = MultigridPoisson(counts, size, system.periodic, -factor, share, penalty)
 
         def poisson(source: Vector) -> Vector:

@@ -1,4 +1,4 @@
-"""Sums over the neighbours of particles at one moment, and matrices of the same weights."""
+"""Sums over the neighbours of particles at one moment, and weights of their pairs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from copy import copy
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from sphear.engine.formula import Interaction, Shape
 from sphear.engine.kept_records import Records
@@ -18,11 +17,10 @@ from sphear.engine.structure import leaves
 from sphear.engine.sweep import Sweep
 from sphear.engine.threads import on_threads
 from sphear.engine.uniform import with_uniform
-from sphear.engine.weights import chunk_weights, pair_weights
+from sphear.engine.weights import chunk_weights
 from sphear.interactions.joined import Joined
 from sphear.kernels import Kernel
 from sphear.neighbours import Chunk, Domain, Neighbours
-from sphear.neighbours.sparse import sparse_rows
 
 Array = np.ndarray[Any, Any]
 
@@ -67,7 +65,6 @@ class ParticleSums:
         volume: (P,), or one number for all.
         domain: with its periodic axes; None is open space.
         threads: to compute on.
-        coincident: whether a particle may lie where one that is only a neighbour does.
         together: interactions that depend on places and volumes alone: once one is asked for, all are summed.
     """
 
@@ -79,12 +76,9 @@ class ParticleSums:
         volume: Array | float,
         domain: Domain | None,
         threads: int,
-        coincident: bool = False,
         together: Sequence[Any] = (),
     ) -> None:
-        self.neighbours = Neighbours(
-            positions, kernel.radius, domain, threads=threads, rows=count, keep_coincident=coincident
-        )
+        self.neighbours = Neighbours(positions, kernel.radius, domain, threads=threads, rows=count)
         self.count, self.total = count, len(positions)
         self.domain = domain
         self.positions = positions
@@ -216,20 +210,3 @@ class ParticleSums:
             on_threads(copy, range(len(self._blocks)), self.neighbours.threads)
             self._sums[interaction] = out
         return self._sums[interaction]
-
-    def matrix(
-        self, interaction: Any, preparation: Interaction | None = None, column: Array | None = None, columns: int = 0
-    ) -> csr_array:
-        """The weights of an interaction; row k is that of particle `neighbours.rows[k]`.
-
-        Args:
-            interaction: gives one weight a pair.
-            preparation: what it knows of each of the N particles.
-            column: (P,), the column of each particle; None is its own number.
-            columns: their number; 0 is P.
-        """
-        own, numbers, _ = self.prepared(preparation) if preparation is not None else NOTHING
-        weights = pair_weights(
-            self._given(interaction), self.neighbours, self.fields, own=own, prepared=numbers, packing=self._packing
-        )
-        return sparse_rows(self.neighbours, weights[0], columns or self.total, column)
